@@ -14,6 +14,8 @@ use crate::render::StandardView;
 pub enum Action {
     /// Choose a file to open.
     Open,
+    /// Invite no longer to open one.
+    Uninvite,
     /// Choose a file to open whose numbers are in this unit.
     OpenIn(Unit),
     /// Open the file that is shown again, with its numbers in this unit.

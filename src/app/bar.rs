@@ -13,6 +13,7 @@ use super::icon::{self, Icon};
 use super::menus::{long_menu, menu};
 use super::mode::{Entry, Group, Mode};
 use super::options::{Colours, ViewOptions};
+use super::row::wrapped;
 use super::sides::side_label;
 use super::state::State;
 use super::views::Views;
@@ -92,10 +93,11 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
                 if let Some(document) = &state.document {
                     let verdict = verdict::verdict(state, document);
                     ui.set_max_width(300.0);
-                    let text = RichText::new(verdict.in_short(tell)).small();
-                    let is_bad = verdict.is_safe == Some(false);
-                    let text = if is_bad { text.color(ui.visuals().error_fg_color) } else { text.weak() };
-                    ui.add(egui::Label::new(text).wrap());
+                    let colour = ui.visuals().error_fg_color;
+                    wrapped(ui, &verdict.in_short(tell), |text| match verdict.is_safe {
+                        Some(false) => text.small().color(colour),
+                        _ => text.small().weak(),
+                    });
                     ui.separator();
                 }
                 for format in Format::ALL {

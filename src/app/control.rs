@@ -3,7 +3,9 @@
 
 use std::ops::RangeInclusive;
 
-use egui::{ComboBox, DragValue, Key, Modifiers, ProgressBar, Role, Slider, Ui};
+use egui::{
+    Align, ComboBox, Direction, DragValue, Key, Label, Layout, Modifiers, ProgressBar, RichText, Role, Slider, Ui, vec2,
+};
 
 use super::assist::{describe, name};
 use super::icon::{self, Icon};
@@ -15,8 +17,23 @@ use crate::pipeline::settings::Settings;
 use crate::pipeline::settings::table::{self, Kind, Value};
 use crate::say;
 
-/// Height of a row where a mouse points, in points.
+/// Height of a slider where a mouse points, and that of the row above it, in points.
 const ROW: f32 = 20.0;
+const NAME_ROW: f32 = 24.0;
+
+/// Width of a field beside its slider, in points.
+const FIELD: f32 = 64.0;
+/// By how much a small name stands nearer to its slider than rows stand to one another, in points.
+const LOW_GAP: f32 = 3.0;
+
+/// How the rows of a number stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    /// Name and field in a row, and below them the slider in the whole of the width.
+    Tall,
+    /// The name in small letters, and below it slider and field in a row: lower where rows have the height of a finger.
+    Low,
+}
 
 /// A number that can be set.
 pub(super) struct Setting<'a> {
@@ -52,16 +69,16 @@ pub(super) enum Change {
 impl Setting<'_> {
     /// Shows the rows; says whether the user changed the value.
     pub(super) fn show(&self, ui: &mut Ui, value: &mut f64) -> bool {
-        self.show_with_mark(ui, value, None) != Change::None
+        self.show_docked(ui, value, Form::Tall, None) != Change::None
     }
 
-    /// Shows the rows with a mark under the slider at a value of the linear scale.
-    pub(super) fn show_with_mark(&self, ui: &mut Ui, value: &mut f64, mark: Option<f64>) -> Change {
+    /// The same in the form of the dock, with a mark under the slider at a value of the linear scale.
+    pub(super) fn show_docked(&self, ui: &mut Ui, value: &mut f64, form: Form, mark: Option<f64>) -> Change {
         // The controls work on what is shown: one that is left alone changes no digit that is not.
         let before = self.rounded(*value);
         let mut shown = before;
         // An identity of its own: rows that come and go above must not take the focus away.
-        if ui.push_id(self.name, |ui| self.rows(ui, &mut shown, mark)).inner {
+        if ui.push_id(self.name, |ui| self.rows(ui, &mut shown, form, mark)).inner {
             *value = self.default;
             return Change::Reset;
         }
@@ -73,18 +90,45 @@ impl Setting<'_> {
     }
 
     /// Says whether the user goes back to the default.
-    fn rows(&self, ui: &mut Ui, value: &mut f64, mark: Option<f64>) -> bool {
-        ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), ROW);
+    fn rows(&self, ui: &mut Ui, value: &mut f64, form: Form, mark: Option<f64>) -> bool {
         let way = Way::of(ui);
-        let head = ui.horizontal(|ui| {
-            ui.label(self.name).on_hover_text(self.help.to_owned());
-            let right_to_left = egui::Layout::right_to_left(egui::Align::Center);
-            ui.with_layout(right_to_left, |ui| {
-                let is_reset = self.reset(ui, *value);
-                self.typed(ui, value, way);
-                is_reset
-            })
-        });
+        let mut is_reset = false;
+        match form {
+            Form::Tall => {
+                // As high as the field: name, field and button stand on one line.
+                ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), NAME_ROW);
+                ui.horizontal(|ui| {
+                    ui.label(self.name).on_hover_text(self.help.to_owned());
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                        is_reset = self.reset(ui, *value);
+                        self.typed(ui, value, way);
+                    });
+                });
+                ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), ROW);
+                self.slider(ui, value, way, mark);
+            }
+            Form::Low => {
+                let name = RichText::new(self.name).small();
+                ui.add(Label::new(name)).on_hover_text(self.help.to_owned());
+                // Closer to its own slider than to the one above.
+                ui.add_space(-LOW_GAP);
+                ui.horizontal(|ui| {
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                        is_reset = self.reset(ui, *value);
+                        // Of one width: sliders below one another end below one another.
+                        let size = vec2(FIELD, ui.spacing().interact_size.y);
+                        let field = Layout::centered_and_justified(Direction::TopDown);
+                        ui.allocate_ui_with_layout(size, field, |ui| self.typed(ui, value, way));
+                        self.slider(ui, value, way, mark);
+                    });
+                });
+            }
+        }
+        is_reset
+    }
+
+    /// The slider, as wide as there is room.
+    fn slider(&self, ui: &mut Ui, value: &mut f64, way: Way, mark: Option<f64>) {
         ui.spacing_mut().slider_width = ui.available_width();
         let step = if self.logarithmic { 0.0 } else { libm::pow(10.0, -(self.decimals as f64)) };
         let slider = Slider::from_get_set(self.range.clone(), |set| way.take(value, set))
@@ -101,7 +145,6 @@ impl Setting<'_> {
         if let Some(mark) = mark {
             self.draw_mark(ui, response.rect, mark);
         }
-        head.inner.inner
     }
 
     /// Page up and Page down go a tenth of the slider's way, Home and End to its ends.
@@ -171,6 +214,11 @@ impl Setting<'_> {
 /// Shows a setting of the table: a slider, a box to tick or a list. What has no control of this kind (a limit, pieces, a
 /// target) shows nothing, nor does a setting without a name in the panel.
 pub(super) fn setting(ui: &mut Ui, setting: &table::Setting, settings: &mut Settings) {
+    self::docked(ui, setting, settings, Form::Tall);
+}
+
+/// The same, a number in this form.
+pub(super) fn docked(ui: &mut Ui, setting: &table::Setting, settings: &mut Settings, form: Form) {
     if setting.messages.label.is_empty() {
         return;
     }
@@ -180,11 +228,11 @@ pub(super) fn setting(ui: &mut Ui, setting: &table::Setting, settings: &mut Sett
             ui.checkbox(at(settings), words).on_hover_text(help);
         }
         Kind::Number { at, ref range } => {
-            number(setting, range, &words, &help).show(ui, at(settings));
+            number(setting, range, &words, &help).show_docked(ui, at(settings), form, None);
         }
         Kind::Count { at, ref range } => {
             let mut count = f64::from(*at(settings));
-            if number(setting, range, &words, &help).show(ui, &mut count) {
+            if number(setting, range, &words, &help).show_docked(ui, &mut count, form, None) != Change::None {
                 *at(settings) = count as u32;
             }
         }

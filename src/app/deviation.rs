@@ -91,6 +91,7 @@ pub(super) fn legend(map: ColourMap, shown: Deviating) -> Legend {
         is_open: true,
         is_open_below: is_signed,
         note,
+        patch: None,
         is_diverging: is_signed,
         has_histogram,
     }

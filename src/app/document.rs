@@ -206,7 +206,7 @@ impl Document {
     /// Takes new levels and shows the one that `target` asks for. What the numbers say of places on older levels is
     /// forgotten; the rest of them stands until there are new ones.
     pub fn set_levels(&mut self, reduced: Reduced, target: Target) {
-        self.entering_vertices = nodes_in_use(&reduced.mesh.triangles, reduced.mesh.positions.len());
+        self.entering_vertices = reduced.vertices;
         self.levels = Some((reduced.keep, reduced.mesh));
         self.revision.levels += 1;
         (self.found, self.asked) = (None, None);
@@ -252,7 +252,7 @@ impl Document {
     fn set_shown(&mut self, level: Level) {
         let Some((_, levels)) = &self.levels else { return };
         if self.shown.as_ref().is_none_or(|shown| shown.level != level) {
-            let vertices = nodes_in_use(&level.triangles, levels.positions.len());
+            let vertices = levels.nodes_in_use(&level.triangles);
             self.shown = Some(Shown { level, vertices, classes: OnceCell::new() });
             self.revision.shown += 1;
         }
@@ -392,11 +392,4 @@ impl Document {
         let (levels, measured) = (&self.levels.as_ref()?.1, self.measured.as_ref()?);
         (self.measures_shown() && measured.deviation.len() == levels.positions.len()).then_some(&measured.deviation)
     }
-}
-
-/// How many nodes `triangles` use.
-fn nodes_in_use(triangles: &[[u32; 3]], nodes: usize) -> usize {
-    let mut used = vec![false; nodes];
-    triangles.as_flattened().iter().for_each(|&node| used[node as usize] = true);
-    used.into_iter().filter(|&used| used).count()
 }

@@ -1,19 +1,29 @@
 //! The panel of a phone: a sheet that a finger draws up from below by its handle, and that comes to rest at one of three
 //! heights.
 
-use egui::{EventFilter, Key, Rect, Role, Sense, Ui, vec2};
+use egui::{Context, EventFilter, Key, Rect, Role, Sense, Ui, vec2};
 
 use super::assist::name;
 use super::theme::FINGER;
 use crate::say;
 
+/// Its height at the highest stop, as a part of the room for panel and views.
+const FULL: f32 = 0.75;
+/// Room below what it shows, in points.
+const BELOW: f32 = 16.0;
+/// The height of a head before one was shown, in points.
+const HEAD: f32 = 240.0;
+/// Room below a head for what scrolls: where there is less, the head scrolls with it, in points.
+const LEAST: f32 = 72.0;
+/// What the second height shows below what is seen at the lowest, at least, in points.
+const MORE: f32 = 96.0;
+
 /// A height at which it rests.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stop {
-    /// The count and the slider of the reduction.
+    /// What stays in sight, and nothing below it.
     Peek,
     /// Beside a view.
-    #[default]
     Half,
     /// Nearly alone.
     Full,
@@ -32,53 +42,117 @@ impl Stop {
     }
 }
 
+/// What stands in the panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Content {
+    /// Something with a head that stays in sight, by its place in the list of panels; `None` for the method.
+    Headed(Option<usize>),
+    /// Something without.
+    Plain,
+}
+
 /// The heights of the three stops, in points, the lowest first.
 #[derive(Clone, Copy)]
-pub(super) struct Stops([f32; 3]);
+struct Stops([f32; 3]);
 
 impl Stops {
     /// Of a window that has `room` points for panel and views, `half` as a part of it, and `peek` points for what is seen
     /// at the lowest, without its handle.
-    pub(super) fn new(room: f32, half: f32, peek: f32) -> Self {
+    fn new(room: f32, half: f32, peek: f32) -> Self {
         let low = FINGER + peek;
-        let half = low.max(room * half);
-        Self([low, half, half.max(room * 0.75)])
+        let half = (low + MORE).max(room * half).min(room * FULL).max(low);
+        Self([low, half, half.max(room * FULL)])
     }
 
     fn nearest(self, height: f32) -> Stop {
         let away = |stop: &Stop| (self.0[*stop as usize] - height).abs();
-        Stop::ALL.into_iter().min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or_default()
+        Stop::ALL.into_iter().min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(Stop::Peek)
     }
 }
 
 /// How far the panel is drawn up.
-#[derive(Default)]
 pub(super) struct Drawer {
-    stop: Stop,
+    /// Where what has a head rests, and where what has none does: that would show nothing at the lowest.
+    stops: [Stop; 2],
     /// Its height while a finger draws it, in points.
     drawn: Option<f32>,
+    content: Content,
+    /// How high the head is, as it was last shown, in points.
+    head: f32,
+    /// The width that this was at, in points.
+    width: f32,
+    /// The heights at which it can rest.
+    heights: Stops,
+}
+
+impl Default for Drawer {
+    fn default() -> Self {
+        Self {
+            stops: [Stop::Peek, Stop::Half],
+            drawn: None,
+            content: Content::Headed(None),
+            head: HEAD,
+            width: 0.0,
+            heights: Stops::new(0.0, 0.0, 0.0),
+        }
+    }
 }
 
 impl Drawer {
+    /// Takes what stands in it in this frame, in a window that has `room` points for panel and views, `half` as a part of it.
+    pub(super) fn take(&mut self, content: Content, room: f32, half: f32) {
+        if content != self.content {
+            (self.content, self.width) = (content, 0.0);
+        }
+        let peek = if content == Content::Plain { BELOW } else { self.head + BELOW };
+        self.heights = Stops::new(room, half, peek);
+    }
+
+    /// Takes how high the head is. It grows where its words need more room and does not shrink again with them: the views
+    /// would move.
+    pub(super) fn take_head(&mut self, ui: &Ui, height: f32) {
+        let width = ui.available_width();
+        let is_same = (width - self.width).abs() < 0.5;
+        let head = if is_same { height.max(self.head) } else { height };
+        if (head - self.head).abs() > 0.5 {
+            ui.ctx().request_repaint();
+        }
+        (self.head, self.width) = (head, width);
+    }
+
+    /// Whether there is room for the head and something below it.
+    pub(super) fn docks(&self, room: f32) -> bool {
+        room >= self.head + LEAST
+    }
+
     /// Its height now, in points.
-    pub(super) fn height(&self, stops: Stops) -> f32 {
-        self.drawn.unwrap_or(stops.0[self.stop as usize])
+    pub(super) fn height(&self) -> f32 {
+        self.drawn.unwrap_or(self.heights.0[self.stop() as usize])
     }
 
     /// Whether there is room for no more than the lowest stop shows.
-    pub(super) fn peeks(&self, stops: Stops) -> bool {
-        self.height(stops) < (stops.0[0] + stops.0[1]) / 2.0
+    pub(super) fn peeks(&self) -> bool {
+        self.height() < self.heights.0[0] + MORE / 4.0
+    }
+
+    fn stop(&self) -> Stop {
+        self.stops[usize::from(self.content == Content::Plain)]
+    }
+
+    fn rest(&mut self, stop: Stop, ctx: &Context) {
+        self.stops[usize::from(self.content == Content::Plain)] = stop;
+        ctx.request_repaint();
     }
 
     /// Shows its handle: it is dragged, a tap goes to the next stop, arrows up and down.
-    pub(super) fn handle(&mut self, ui: &mut Ui, stops: Stops) {
+    pub(super) fn handle(&mut self, ui: &mut Ui) {
+        let stops = self.heights;
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), FINGER), Sense::click_and_drag());
         if response.dragged() {
-            let height = self.height(stops) - response.drag_delta().y;
+            let height = self.height() - response.drag_delta().y;
             self.drawn = Some(height.clamp(stops.0[0], stops.0[2]));
         } else if let Some(height) = self.drawn.take() {
-            self.stop = stops.nearest(height);
-            ui.ctx().request_repaint();
+            self.rest(stops.nearest(height), ui.ctx());
         }
         let mut way = i32::from(response.clicked());
         if response.has_focus() {
@@ -87,12 +161,11 @@ impl Drawer {
             way += ui.input(|input| input.num_presses(Key::ArrowUp) as i32 - input.num_presses(Key::ArrowDown) as i32);
         }
         let last = Stop::ALL.len() as i32 - 1;
-        let next = self.stop as i32 + way;
+        let next = self.stop() as i32 + way;
         // A tap at the highest goes back to the lowest; arrows stay there.
         let next = if response.clicked() && next > last { 0 } else { next.clamp(0, last) };
-        if next != self.stop as i32 {
-            self.stop = Stop::ALL[next as usize];
-            ui.ctx().request_repaint();
+        if next != self.stop() as i32 {
+            self.rest(Stop::ALL[next as usize], ui.ctx());
         }
         let visuals = ui.style().interact(&response);
         let grip = Rect::from_center_size(rect.center(), vec2(40.0, 5.0));
@@ -101,7 +174,7 @@ impl Drawer {
             let ring = egui::Stroke::new(2.0, ui.visuals().hyperlink_color);
             ui.painter().rect_stroke(rect, 4.0, ring, egui::StrokeKind::Inside);
         }
-        name(&response, Role::Button, &self.stop.label());
+        name(&response, Role::Button, &self.stop().label());
         response.on_hover_text(say!("app-panel-help"));
     }
 }
@@ -115,6 +188,15 @@ mod tests {
         let stops = Stops::new(600.0, 0.45, 120.0);
         for (height, stop) in [(0.0, Stop::Peek), (200.0, Stop::Peek), (240.0, Stop::Half), (400.0, Stop::Full)] {
             assert_eq!(stops.nearest(height), stop, "{height}");
+        }
+    }
+
+    #[test]
+    fn each_stop_shows_more_than_the_one_below_it() {
+        for (room, half, peek) in [(730.0, 0.45, 240.0), (530.0, 0.35, 240.0), (912.0, 0.45, 150.0), (730.0, 0.45, 8.0)]
+        {
+            let Stops([low, half, full]) = Stops::new(room, half, peek);
+            assert!(low + 32.0 <= half && half + 16.0 <= full && full < room, "{low} {half} {full} of {room}");
         }
     }
 }

@@ -13,6 +13,7 @@ use super::state::State;
 use super::still_plot::{still, tick};
 use crate::language::decimal;
 use crate::pipeline::error_curve::CurvePoint;
+use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::{Decimation, Method, Settings, Target, reduction_percent};
 use crate::say;
 
@@ -95,10 +96,12 @@ fn plot(ui: &mut Ui, state: &State) -> Option<Target> {
             let stroke = Stroke::new(2.0, if is_own { accent } else { weak });
             plot.line(Line::new(kept.method.name(), points.collect::<PlotPoints<'_>>()).stroke(stroke));
         }
-        let safe = state.safe().and_then(|safe| safe.triangles);
+        let (safe, is_covered) =
+            (state.safe().and_then(|safe| safe.triangles), state.safe().is_some_and(Safe::is_covered));
+        let safe_name = if is_covered { say!("panel-error-safe") } else { say!("panel-error-kept") };
         for (triangles, name, style, height) in [
             (Some(now), say!("panel-error-now"), LineStyle::dashed_dense(), 0.98),
-            (safe, say!("panel-error-safe"), LineStyle::dotted_loose(), 0.86),
+            (safe, safe_name, LineStyle::dotted_loose(), 0.86),
         ] {
             let Some(at) = triangles.map(log) else { continue };
             plot.vline(VLine::new("", at).color(ink).style(style).allow_hover(false));

@@ -44,6 +44,12 @@ pub(super) fn section(ui: &mut Ui, state: &State, options: ViewOptions, asked: &
     });
 }
 
+/// Whether there is something to mend, and nothing is mended.
+pub(super) fn is_called_for(state: &State) -> bool {
+    let found = state.document.as_ref().and_then(|document| document.faults.as_ref());
+    found.is_some_and(|found| is_faulty(&found.counts)) && state.settings.mending.is_off()
+}
+
 /// Whether there is something to mend.
 fn is_faulty(counts: &FaultCounts) -> bool {
     counts.non_manifold_edges + counts.non_manifold_vertices + counts.holes > 0 || counts.wall.is_some()

@@ -11,7 +11,7 @@
 //! 5. drawing: `arrays`, `overlay`, `scene`, `deviation`, `mending`, `verdict`;
 //! 6. panels beside the views: [`collapses`], [`measure`], [`vessels`]; then `views`;
 //! 7. modes with views of their own: `filling`, [`compare`], [`trial`], [`scan`]; [`lesson`], [`record`], `recovery`;
-//! 8. the window: `Panels` below, `bar`, `shortcuts`, `lumen_app`, `lasting`.
+//! 8. the window: `Panels` below, `bar`, `invitation`, `shortcuts`, `lumen_app`, `lasting`.
 //!
 //! One more panel is its folder, its variant in `action` and its lines in `Panels` below.
 //!
@@ -21,6 +21,7 @@
 //! - `mode`: the modes, one at a time, and the trait of modes and panels; `filling`: modes with views of their own.
 //! - `panel`, `numbers`, `bar`, `sheets`, `keys`, `shortcuts`: the controls; `row`, `control`, `swipe`, `response`,
 //!   `error_plot`, `icon` what they are made of, `assist` what assistive tools are told of them, `theme` the look.
+//! - `invitation`: over the sample, to open a file.
 //! - `drawer`: the panel of a phone; `tabs`: one large view there.
 //! - `sharing`: settings as a file and in a link; `recovery`: what comes back after a reload.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
@@ -59,6 +60,7 @@ mod graphics_error;
 mod halo;
 pub mod history;
 mod icon;
+mod invitation;
 mod keys;
 mod large;
 mod lasting;

@@ -187,6 +187,14 @@ pub(super) trait Panel {
         None
     }
 
+    /// Whether it has a head, which stays in sight: the window scrolls what [`Self::show`] shows below it.
+    fn has_head(&self) -> bool {
+        false
+    }
+
+    /// Shows its head.
+    fn show_head(&mut self, _ui: &mut Ui, _now: Now<'_>, _asked: &mut Vec<Action>) {}
+
     /// Shows the panel in its place; for a mode, its controls.
     fn show(&mut self, ui: &mut Ui, now: Now<'_>, asked: &mut Vec<Action>);
 
@@ -195,7 +203,8 @@ pub(super) trait Panel {
         false
     }
 
-    /// The height in points of its controls for thumbs, which stand lowest on a phone while it has the window.
+    /// The height in points of its controls for thumbs: they stand lowest where the panel stands below the views, else
+    /// above the panel.
     fn thumb_height(&self) -> Option<f32> {
         None
     }

@@ -4,10 +4,10 @@ use egui::{CollapsingHeader, RichText, Ui};
 
 use super::row::number;
 use crate::language::{Key, decimal};
-use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::Report;
 use crate::pipeline::shape::Shape;
 use crate::say;
+use crate::vessel::width::Narrowest;
 
 /// Shows the shape of the level and, where it is known, that of the smoothed surface; folded up at first.
 pub(super) fn shape(ui: &mut Ui, report: Option<&Report>) {

@@ -8,7 +8,7 @@ use super::{arrays, halo};
 use crate::io::Axes;
 use crate::language::{Key, decimal, grouped};
 use crate::mesh::{ArrayInfo, Vec3};
-use crate::render::{Camera, ColourMap, diverging, viridis};
+use crate::render::{Camera, Colour, ColourMap, diverging, viridis};
 use crate::say;
 
 /// What to write.
@@ -44,6 +44,8 @@ pub(super) struct Legend {
     pub is_open_below: bool,
     /// What is said below the colours.
     pub note: String,
+    /// The colour of what the note says, a patch below the colours; `None` where it says something else.
+    pub patch: Option<Colour>,
     /// Whether they go both ways from white.
     pub is_diverging: bool,
     /// Whether a histogram stands where the numbers at the ends do otherwise: they are above and below the colours.
@@ -229,7 +231,14 @@ fn legend(painter: &Painter, inner: Rect, legend: &Legend, colour: Color32) {
     ends(painter, bar, [low, high], &legend.title, colour, legend.has_histogram);
     let font = FontId::proportional(12.0);
     let below = if legend.has_histogram { 16.0 } else { 14.0 };
-    halo::text(painter, bar.right_bottom() + vec2(0.0, below), Align2::RIGHT_TOP, &legend.note, font, colour);
+    let foot = bar.right_bottom() + vec2(0.0, below);
+    let Some(Colour([r, g, b])) = legend.patch else {
+        halo::text(painter, foot, Align2::RIGHT_TOP, &legend.note, font, colour);
+        return;
+    };
+    let patch = Rect::from_min_size(pos2(bar.left(), foot.y), vec2(bar.width(), bar.width()));
+    painter.rect_filled(patch, 0.0, Color32::from_rgb(r, g, b));
+    halo::text(painter, patch.left_center() - vec2(6.0, 0.0), Align2::RIGHT_CENTER, &legend.note, font, colour);
 }
 
 #[cfg(test)]

@@ -187,7 +187,7 @@ impl Shown {
         let map = map.filter(|_| self == Self::Colours);
         // It would darken colours that the legend explains, and lines have nothing to be darkened by.
         let occlusion = matches!(self, Self::Opened | Self::Reduced);
-        let style = Style { map, occlusion, ..Style::LIGHT };
+        let style = Style { map, unknown: Some(Style::UNKNOWN), occlusion, ..Style::LIGHT };
         Pose { camera, size: SIZE, look, style, behind: Behind::White, marks: report_marks(axes) }
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, CollapsingHeader, Id, Label, RichText, Role, Stroke, Ui, WidgetInfo};
+use egui::{Align2, CollapsingHeader, Id, RichText, Role, Stroke, Ui, WidgetInfo};
 use egui_plot::{
     AxisHints, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine,
 };
@@ -76,7 +76,7 @@ pub(super) fn show(ui: &mut Ui, settings: &Smoothing, scale: Scale, averaged: &m
     let filter = filter(ui, settings);
     let response = SmoothingResponse::new(&filter, settings.pass_band, scale.edge_length.unwrap_or(0.0));
     let text = sentence(&response, settings.adapt);
-    ui.add(Label::new(RichText::new(&text).small()).wrap());
+    remark(ui, &text);
     let head = CollapsingHeader::new(say!("panel-response")).id_salt("Response").show_unindented(ui, |ui| {
         let id = Id::unique("tried wave");
         let first = response.half_gain.map_or(-1.0, libm::log10);

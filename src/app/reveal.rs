@@ -152,6 +152,6 @@ impl Divider {
 }
 
 /// Middle of the grip of a line at `x`: low enough to leave the middle of the surface free.
-fn grip(rect: Rect, x: f32) -> Pos2 {
+pub(super) fn grip(rect: Rect, x: f32) -> Pos2 {
     pos2(x, rect.top() + rect.height() * 0.85)
 }

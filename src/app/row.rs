@@ -1,31 +1,122 @@
 //! The rows of the panel: the head of a step, a control with its label, a number, a remark.
 
-use egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
+use egui::collapsing_header::{CollapsingState, paint_default_icon};
+use egui::{
+    Align, CollapsingHeader, Label, Layout, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder,
+    Vec2, vec2,
+};
 
-use super::assist::heading;
+use super::assist::{heading, name};
 use super::theme;
+use crate::say;
+
+/// Room that a column leaves at its right for the scroll bar, in points.
+const SCROLL_BAR: f32 = 8.0;
 
 /// A column that scrolls.
 pub(super) fn scrolled<R>(ui: &mut Ui, show: impl FnOnce(&mut Ui) -> R) -> R {
     let column = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         // Room for the scroll bar beside what stands at the right.
-        ui.set_max_width(ui.available_width() - 8.0);
-        ui.spacing_mut().item_spacing.y = 3.0;
+        ui.set_max_width(ui.available_width() - SCROLL_BAR);
+        close(ui);
         show(ui)
     });
     column.inner
 }
 
+/// What stands above a column that scrolls, as wide as the column; says how high it is, in points.
+pub(super) fn docked(ui: &mut Ui, show: impl FnOnce(&mut Ui)) -> f32 {
+    let shown = ui.scope(|ui| {
+        ui.set_max_width(ui.available_width() - SCROLL_BAR);
+        close(ui);
+        show(ui);
+    });
+    shown.response.rect.height()
+}
+
+/// Rows stand close to one another.
+fn close(ui: &mut Ui) {
+    ui.spacing_mut().item_spacing.y = 3.0;
+}
+
+/// A step of the method that folds.
+pub(super) struct Fold<'a> {
+    /// Its number.
+    pub(super) number: u32,
+    /// Its name.
+    pub(super) title: &'a str,
+    /// What it does.
+    pub(super) what: &'a str,
+    /// What there is to say of it while it is folded.
+    pub(super) summary: RichText,
+    /// Whether it is unfolded at first.
+    pub(super) is_open: bool,
+}
+
+impl Fold<'_> {
+    /// Shows the head, and what is in it while it is unfolded.
+    pub(super) fn show(self, ui: &mut Ui, body: impl FnOnce(&mut Ui)) {
+        if self.number > 1 {
+            ui.separator();
+        }
+        let id = ui.make_persistent_id("fold");
+        let mut state = CollapsingState::load_with_default_open(ui.ctx(), id, self.is_open);
+        let (rect, response) =
+            ui.allocate_exact_size(vec2(ui.available_width(), ui.spacing().interact_size.y), Sense::click());
+        if response.clicked() {
+            state.toggle(ui);
+        }
+        name(&response, Role::DisclosureTriangle, self.title);
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_expanded(state.is_open()));
+        let indent = ui.spacing().indent;
+        let icon = Rect::from_center_size(rect.left_center() + vec2(indent / 2.0, 0.0), Vec2::splat(10.0));
+        paint_default_icon(ui, state.openness(ui.ctx()), &response.clone().with_new_rect(icon));
+        let inside = UiBuilder::new().max_rect(rect.with_min_x(rect.left() + indent));
+        ui.scope_builder(inside.layout(Layout::left_to_right(Align::Center)), |ui| {
+            number_and_title(ui, self.number, self.title);
+            if !state.is_open() {
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    ui.add(Label::new(self.summary.small()).truncate());
+                });
+            }
+        });
+        if response.has_focus() {
+            let ring = Stroke::new(2.0, ui.visuals().hyperlink_color);
+            ui.painter().rect_stroke(rect, 4.0, ring, StrokeKind::Inside);
+        }
+        state.show_body_unindented(ui, |ui| {
+            wrapped(ui, self.what, |text| text.small().weak());
+            body(ui);
+        });
+    }
+}
+
+/// What experts alone change of the step `title`, folded at first.
+pub(super) fn advanced(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui)) {
+    let words = say!("panel-advanced");
+    let head = CollapsingHeader::new(&words).id_salt("advanced").show_unindented(ui, body);
+    // Each step has one.
+    name(&head.header_response, Role::DisclosureTriangle, &say!("panel-advanced-of", step = title));
+    head.header_response.on_hover_text(say!("panel-advanced-help"));
+}
+
+/// The number and the name of a step.
+pub(super) fn title(ui: &mut Ui, number: u32, title: &str) {
+    ui.horizontal(|ui| number_and_title(ui, number, title));
+}
+
+fn number_and_title(ui: &mut Ui, number: u32, title: &str) {
+    ui.label(RichText::new(number.to_string()).heading().color(ui.visuals().hyperlink_color));
+    heading(ui, title);
+}
+
 /// The head of a step of the method: its number and name, and what it does.
-pub(super) fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
+pub(super) fn step(ui: &mut Ui, number: u32, name: &str, what: &str) {
     if number > 1 {
         ui.separator();
     }
-    ui.horizontal(|ui| {
-        ui.label(RichText::new(number.to_string()).heading().color(ui.visuals().hyperlink_color));
-        heading(ui, title);
-    });
-    ui.add(Label::new(RichText::new(what).small().weak()).wrap());
+    title(ui, number, name);
+    wrapped(ui, what, |text| text.small().weak());
 }
 
 /// What on the left, the control on the right.
@@ -54,11 +145,50 @@ pub(super) fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
 
 /// A remark in small letters.
 pub(super) fn remark(ui: &mut Ui, text: &str) {
-    ui.add(Label::new(RichText::new(text).small()).wrap());
+    wrapped(ui, text, RichText::small);
 }
 
 /// A remark on something that is wrong.
 pub(super) fn warning(ui: &mut Ui, text: &str) {
-    let text = RichText::new(text).small().color(ui.visuals().error_fg_color);
-    ui.add(Label::new(text).wrap());
+    let colour = ui.visuals().error_fg_color;
+    wrapped(ui, text, |text| text.small().color(colour));
+}
+
+/// A text in as many lines as it needs, none of which ends between a number and its unit.
+pub(super) fn wrapped(ui: &mut Ui, text: &str, look: impl FnOnce(RichText) -> RichText) {
+    let response = ui.add(Label::new(look(RichText::new(unbroken(text)))).wrap());
+    // As it is found and searched for.
+    name(&response, Role::Label, text);
+}
+
+/// Units that stand behind numbers.
+const UNITS: [&str; 21] = [
+    "%", "GB", "Go", "HU", "MB", "Mo", "N", "cm", "fps", "kB", "ko", "m", "mN", "min", "mm", "mm/s", "mm²", "ms", "s",
+    "°", "µm",
+];
+
+/// A text with a no-break space between each number and its unit.
+fn unbroken(text: &str) -> String {
+    let mut unbroken = String::with_capacity(text.len() + 8);
+    for (i, word) in text.split(' ').enumerate() {
+        if i > 0 {
+            let unit = word.trim_end_matches(['.', ',', ':', ';', ')', '?', '!']);
+            let is_unit = UNITS.contains(&unit) && unbroken.ends_with(|c: char| c.is_ascii_digit());
+            unbroken.push(if is_unit { '\u{a0}' } else { ' ' });
+        }
+        unbroken += word;
+    }
+    unbroken
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unbroken;
+
+    #[test]
+    fn a_number_keeps_its_unit() {
+        assert_eq!(unbroken("A vessel of 2.8 mm, at 90 % of it."), "A vessel of 2.8\u{a0}mm, at 90\u{a0}% of it.");
+        assert_eq!(unbroken("1 to 2 in 3 pieces (4 MB)"), "1 to 2 in 3 pieces (4\u{a0}MB)");
+        assert_eq!(unbroken("  in mm  "), "  in mm  ");
+    }
 }

@@ -256,6 +256,7 @@ pub(super) fn coloured(style: Style, document: Option<&Document>, colours: Colou
     let by_vertex = colours == Colours::Classes;
     Style {
         map,
+        unknown: (colours == Colours::Calibre).then_some(Style::UNKNOWN),
         by_vertex,
         labels: by_vertex || array.is_some_and(|info| !info.labels.is_empty()),
         diverging: colours.are_diverging(),

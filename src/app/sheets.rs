@@ -1,9 +1,10 @@
 //! The sheets over the window: keys and gestures, and what Lumen is.
 
-use egui::{Grid, Id, Label, Modal, RichText, ScrollArea, Ui};
+use egui::{Grid, Id, Modal, RichText, ScrollArea, Ui};
 
 use super::assist::heading;
 use super::lesson::glossary;
+use super::row::wrapped;
 use super::theme;
 use crate::language::Key;
 use crate::say;
@@ -93,7 +94,7 @@ fn words(ui: &mut Ui) {
     ScrollArea::vertical().max_height(height.max(120.0)).show(ui, |ui| {
         for (word, meaning) in glossary() {
             ui.label(RichText::new(word).strong());
-            ui.add(Label::new(meaning).wrap());
+            wrapped(ui, &meaning, |text| text);
             ui.add_space(6.0);
         }
     });

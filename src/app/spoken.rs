@@ -8,10 +8,10 @@ use super::state::State;
 use super::verdict;
 use crate::io::Axes;
 use crate::language::{Key, decimal, tell};
-use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::settings::Keep;
 use crate::render::Camera;
 use crate::say;
+use crate::vessel::width::Narrowest;
 
 /// From which side a view looks, as far as it is known which way the patient lies.
 fn side(camera: &Camera, axes: Axes) -> String {

@@ -184,6 +184,11 @@ impl Default for State {
 }
 
 impl State {
+    /// Whether the surface that is open is a sample.
+    pub fn shows_sample(&self) -> bool {
+        self.document.as_ref().is_some_and(|document| matches!(document.source, Source::Sample { .. }))
+    }
+
     /// Whether the engine is at work.
     pub fn is_busy(&self) -> bool {
         self.work.is_some()

@@ -29,6 +29,8 @@ struct Palette {
     accent: u32,
     on_accent: u32,
     error: u32,
+    /// Of what is neither right nor wrong as far as is known.
+    caution: u32,
 }
 
 const LIGHT: Palette = Palette {
@@ -41,6 +43,7 @@ const LIGHT: Palette = Palette {
     accent: 0x1F_66_A8,
     on_accent: 0xFF_FF_FF,
     error: 0xA8_1F_1F,
+    caution: 0x7A_52_00,
 };
 
 const DARK: Palette = Palette {
@@ -53,6 +56,7 @@ const DARK: Palette = Palette {
     accent: 0x3E_8F_D6,
     on_accent: 0x08_0C_10,
     error: 0xFF_8A_80,
+    caution: 0xE8_B4_4C,
 };
 
 fn colour(rgb: u32) -> Color32 {
@@ -147,7 +151,7 @@ fn visuals(theme: Theme, palette: &Palette) -> Visuals {
     v.weak_text_color = Some(weak);
     v.hyperlink_color = accent;
     v.error_fg_color = colour(palette.error);
-    v.warn_fg_color = text;
+    v.warn_fg_color = colour(palette.caution);
     v.selection.bg_fill = accent;
     v.selection.stroke = Stroke::new(1.0, colour(palette.on_accent));
     v.slider_trailing_fill = true;
@@ -238,7 +242,7 @@ mod tests {
     #[test]
     fn text_has_a_contrast_of_four_and_a_half() {
         for palette in [LIGHT, DARK] {
-            for text in [palette.text, palette.weak, palette.error] {
+            for text in [palette.text, palette.weak, palette.error, palette.caution] {
                 for ground in [palette.panel, palette.raised, palette.field] {
                     let found = contrast(Colour::hex(text), Colour::hex(ground));
                     assert!(found >= 4.5, "{text:06x} on {ground:06x}: {found}");

@@ -253,6 +253,8 @@ struct Row<'a> {
     deviation_max_mm: Option<f64>,
     /// Whether the vessels keep their calibre.
     calibre: Option<Verdict>,
+    /// The part of their length that is measured.
+    calibre_measured_percent: Option<f64>,
     self_intersecting_triangles: Option<usize>,
     output_fingerprint: String,
     warnings: String,
@@ -280,6 +282,7 @@ impl<'a> Row<'a> {
             deviation_mean_mm: report.deviation_mm.map(|deviation| deviation.mean),
             deviation_max_mm: report.deviation_mm.map(|deviation| deviation.max),
             calibre: report.calibre.as_ref().and_then(|calibre| calibre.verdict),
+            calibre_measured_percent: report.calibre.as_ref().and_then(|calibre| calibre.measured_percent),
             self_intersecting_triangles: report.output_shape.as_ref().map(|shape| shape.self_intersecting_faces),
             output_fingerprint: report.output_fingerprint.clone(),
             warnings: warnings.join(" "),

@@ -6,7 +6,7 @@ use tabled::settings::{Alignment, Style};
 
 use super::rows::row;
 use crate::pipeline::report::Report;
-use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread, measured_percent};
+use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread};
 
 /// Prints the table.
 pub(super) fn print(report: &Report) {
@@ -22,12 +22,11 @@ pub(super) fn print(report: &Report) {
     table.with(Style::blank()).modify(Columns::new(1..NUMBERS), Alignment::right());
     println!("\n{table}");
     let verdict = calibre.verdict.map_or_else(String::new, |verdict| verdict.to_string());
-    let part = measured_percent(report.branches.as_deref().unwrap_or_default()).unwrap_or(0.0);
-    let of = format!("over {part:.0} % of the vessels' length");
-    row("calibre", format!("{verdict}, at a tolerance of {} %, {of}", calibre.tolerance_percent));
+    let over = calibre.coverage.map_or_else(String::new, |found| format!(", measured over {}", found.text()));
+    row("calibre", format!("{verdict}, at a tolerance of {} %{over}", calibre.tolerance_percent));
 }
 
-const HEADS: [&str; 11] = [
+const HEADS: [&str; 12] = [
     "branch",
     "length mm",
     "tortuosity",
@@ -36,12 +35,13 @@ const HEADS: [&str; 11] = [
     "output",
     "smoothed %",
     "output %",
+    "measured %",
     "verdict",
     "largest change at",
     "uneven",
 ];
 /// The columns before this one are numbers, but for the first.
-const NUMBERS: usize = 8;
+const NUMBERS: usize = 9;
 
 fn of(branch: &BranchCalibre) -> [String; HEADS.len()] {
     let none = || "-".to_owned();
@@ -61,8 +61,9 @@ fn of(branch: &BranchCalibre) -> [String; HEADS.len()] {
         mean(&branch.reduced),
         change(&branch.smoothed),
         change(&branch.reduced),
+        format!("{:.0}", branch.coverage().percent().floor()),
         branch.verdict.to_string(),
         branch.reduced.largest_change.map_or_else(String::new, place),
-        branch.most_uneven().map_or_else(String::new, |found| found.text().to_string()),
+        branch.uneven_text().map_or_else(String::new, |found| found.to_string()),
     ]
 }

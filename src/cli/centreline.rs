@@ -51,6 +51,10 @@ impl Centreline {
         let found = Centrelines::new(&subject).with_context(|| format!("{} has no centrelines", self.file))?;
         write_whole(&self.output, found.written(format).as_bytes())?;
         row("branches", found.branches.len());
+        row("too short to be a branch", found.bumps);
+        if found.openings_without_branch > 0 {
+            row("open ends without a branch", found.openings_without_branch);
+        }
         let ends = found.stations.of.iter().filter_map(|range| found.stations.all[range.clone()].last());
         let length: f64 = ends.map(|station| station.abscissa_mm).sum();
         row("length", format!("{length:.1} mm"));

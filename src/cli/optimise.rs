@@ -18,12 +18,12 @@ use super::settings::{Asked, SettingsOptions};
 use super::written::WrittenOptions;
 use super::{batch, branches, interrupt, places, source};
 use crate::io::Unit;
-use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::{DISCLAIMER, Report, SafeReport};
 use crate::pipeline::results::Adapted;
 use crate::pipeline::verdict::Verdict;
 use crate::sharing::{SharedSettings, write_settings};
 use crate::task::milliseconds;
+use crate::vessel::width::Narrowest;
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
 #[derive(Debug, Args)]
@@ -170,9 +170,11 @@ impl Optimise {
             Some(_) => " (auto: as far as is safe)",
         };
         row("reduction", format!("{:.2} %{auto}", report.reduction_percent));
-        if let Some(SafeReport { percent: Some(percent), tolerance_percent, stopped_by, .. }) = &report.safe {
+        if let Some(safe @ SafeReport { percent: Some(percent), tolerance_percent, stopped_by, .. }) = &report.safe {
             let stop = stopped_by.as_ref().map_or(String::new(), |why| format!(": {why}"));
-            row("safe to", format!("{percent:.1} %, at a tolerance of {tolerance_percent} %{stop}"));
+            let name = if safe.is_covered { "safe to" } else { "kept where measured, to" };
+            let over = safe.coverage.map_or(String::new(), |found| format!(", measured over {}", found.text()));
+            row(name, format!("{percent:.1} %, at a tolerance of {tolerance_percent} %{over}{stop}"));
         }
         if let Some(bound) = report.bound {
             row("deviation asked for", format!("{} mm at most", bound.max_deviation_mm));
@@ -220,8 +222,8 @@ impl Optimise {
         row("decimation, all rates", format!("{:.1} ms", ms.decimation));
         row("level and normals", format!("{:.1} ms", ms.level + ms.normals));
         row("written to", format!("{}, in {unit}", self.output.display()));
-        let little = if verdict.calibre.is_some() { "" } else { " (the vessels were not measured: --branches does)" };
-        row("verdict", format!("{}{little}", verdict.head));
+        let little = if verdict.calibre.is_some() { "" } else { " (--branches measures them)" };
+        row("verdict", format!("{}{little}", verdict.head_text()));
         for finding in verdict.findings.iter().filter(|finding| !finding.what.is_of_file()) {
             eprintln!("lumen: warning: {}", told_with_remedies(finding));
         }

@@ -2,8 +2,8 @@
 
 use crate::mesh::ArrayInfo;
 use crate::mesh::arrays::{Association, Kind};
-use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::shape::Shape;
+use crate::vessel::width::Narrowest;
 
 /// A row of a table: what it is, padded, and how much.
 pub(super) fn row(what: &str, how_much: impl std::fmt::Display) {

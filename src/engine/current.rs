@@ -99,7 +99,8 @@ impl Current {
                 self.reached = generation;
                 if let Some(mesh) = self.pipeline.progressive().filter(|_| self.has_new_levels) {
                     let keep = self.pipeline.settings().keep;
-                    let reduced = Reduced { generation, keep, mesh: mesh.clone() };
+                    let reduced =
+                        Reduced { generation, keep, vertices: mesh.nodes_in_use(&mesh.triangles), mesh: mesh.clone() };
                     events.push_back(Event::Reduced(Box::new(reduced)));
                     self.has_new_levels = false;
                 }

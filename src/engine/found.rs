@@ -44,6 +44,8 @@ pub struct Reduced {
     /// The levels.
     #[serde(with = "levels")]
     pub mesh: Arc<ProgressiveMesh>,
+    /// How many nodes the finest of them uses.
+    pub vertices: usize,
 }
 
 /// What a level makes of the vessels.

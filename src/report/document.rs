@@ -13,7 +13,8 @@ use crate::pipeline::verdict::{FindingKind, Verdict};
 use crate::say;
 use crate::sharing::Digest;
 use crate::sharing::measures::Measure;
-use crate::vessel::certificate::{BranchCalibre, OnSurface, Verdict as Calibre, measured_percent};
+use crate::vessel::certificate::{BranchCalibre, OnSurface, Verdict as Calibre};
+use crate::vessel::variation::{Kind as VariationKind, Variation};
 
 /// Vessels whose radius is drawn: those that are narrower or wider somewhere, or change most.
 const DRAWN: usize = 3;
@@ -103,7 +104,7 @@ impl Document {
             file: file(subject),
             settings: settings(report),
             numbers: numbers(report),
-            head: tell(&verdict.head),
+            head: tell(&verdict.head_text()),
             is_safe: verdict.is_safe,
             findings: calibre.into_iter().chain(findings).collect(),
             vessels: vessels(branches),
@@ -251,8 +252,8 @@ fn numbers(report: &Report) -> Vec<Row> {
     add(say!("report-crossing"), shape.map(|shape| grouped(shape.self_intersecting_faces)));
     let lumen = shape.and_then(|shape| shape.smallest_lumen);
     add(say!("report-smallest-lumen"), lumen.map(|lumen| format!("{} mm", decimal(lumen.diameter_mm, 2))));
-    let measured = measured_percent(report.branches.as_deref().unwrap_or_default());
-    add(say!("report-measured"), measured.map(|part| say!("report-measured-part", percent = decimal(part, 0))));
+    let coverage = report.calibre.as_ref().and_then(|calibre| calibre.coverage);
+    add(say!("report-measured"), coverage.map(|coverage| tell(&coverage.text())));
     add(say!("report-output-fingerprint"), Some(report.output_fingerprint.clone()));
     rows
 }
@@ -265,6 +266,7 @@ fn vessels(branches: &[BranchCalibre]) -> Table {
         vec![
             tell(&branch.label()),
             tell(&branch.verdict),
+            format!("{} %", decimal(branch.coverage().percent().floor(), 0)),
             change(&branch.smoothed),
             change(&branch.reduced),
             branch.opened.radius_mm.map_or_else(none, |radius| tell(&radius.text())),
@@ -275,6 +277,7 @@ fn vessels(branches: &[BranchCalibre]) -> Table {
     let heads = vec![
         say!("vessels-column-vessel"),
         say!("report-calibre"),
+        say!("vessels-column-measured"),
         say!("vessels-column-smoothed"),
         say!("vessels-column-reduced"),
         say!("report-radius"),
@@ -285,8 +288,10 @@ fn vessels(branches: &[BranchCalibre]) -> Table {
 }
 
 fn stretches(branches: &[BranchCalibre]) -> Table {
-    let each = branches.iter().flat_map(|branch| branch.variations.iter().map(move |found| (branch, found)));
-    let row = |(branch, found): (&BranchCalibre, &crate::vessel::variation::Variation)| {
+    let mut each: Vec<(&BranchCalibre, &Variation)> =
+        branches.iter().flat_map(|branch| branch.variations.iter().map(move |found| (branch, found))).collect();
+    each.sort_by_key(|(_, found)| found.kind != VariationKind::Narrower);
+    let row = |(branch, found): (&BranchCalibre, &Variation)| {
         let [diameter, reference] = [found.diameter_mm, found.reference_mm].map(|mm| decimal(mm, 2));
         vec![
             tell(&branch.label()),
@@ -294,6 +299,7 @@ fn stretches(branches: &[BranchCalibre]) -> Table {
             format!("{} %", decimal(found.area_percent, 0)),
             found.reduced_degree_percent.map_or("–".to_owned(), |degree| format!("{} %", decimal(degree, 0))),
             say!("report-diameter-of", diameter = diameter, reference = reference),
+            found.sides.iter().flatten().map(|side| decimal(side.abscissa_mm, 1)).collect::<Vec<_>>().join("; "),
             decimal(found.length_mm, 1),
             format!("{} {}", decimal(found.abscissa_mm, 1), point(found.at_mm.map(f64::from))),
         ]
@@ -304,10 +310,11 @@ fn stretches(branches: &[BranchCalibre]) -> Table {
         say!("report-by-area"),
         say!("vessels-column-reduced"),
         say!("report-diameter-mm"),
+        say!("report-reference-at"),
         say!("vessels-column-length"),
         say!("report-at-mm"),
     ];
-    Table { heads, rows: each.map(row).collect() }
+    Table { heads, rows: each.into_iter().map(row).collect() }
 }
 
 fn measures(measures: &[Measure]) -> Table {

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::language::{decimal, tell};
 use crate::say;
 use crate::vessel::BranchName;
+use crate::vessel::width::circle;
 
 /// The most measures of a file that are read.
 const MAX_MEASURES: usize = 500;
@@ -90,7 +91,7 @@ impl Measure {
             Found::Ruler { ends_mm: [from, to] } => format!("{} mm", decimal(place(*from).distance(place(*to)), 2)),
             Found::Diameter { diameter_mm, .. } => say!("app-measure-diameter", mm = decimal(*diameter_mm, 2)),
             Found::Section { area_mm2, widths_mm: [least, largest], .. } => {
-                let round = 2.0 * libm::sqrt(f64::from(*area_mm2) / std::f64::consts::PI);
+                let round = 2.0 * circle(f64::from(*area_mm2));
                 let numbers = [f64::from(*area_mm2), f64::from(*least), f64::from(*largest), round];
                 let [area, least, largest, round] = numbers.map(|number| decimal(number, 2));
                 say!("app-measure-section", area = area, least = least, largest = largest, round = round)

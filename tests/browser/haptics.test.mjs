@@ -84,11 +84,14 @@ async function openTrial(t, more = [], mock = fake) {
 /** Turns the wheel over the panel until a control is in sight, and presses it. */
 async function find(page, role, name) {
   await page.mouse.move(150, 500);
+  // What is scrolled up goes behind the panel's head, whose last button this is.
+  const head = await twin(page, "button", "Close").boundingBox();
+  const top = head.y + head.height + 8;
   await eventually(
     async () => {
       const box = await twin(page, role, name).first().boundingBox({ timeout: 500 }).catch(() => null);
-      if (box && box.y > 60 && box.y + box.height < 740) return true;
-      await page.mouse.wheel(0, box && box.y < 60 ? -120 : 120);
+      if (box && box.y > top && box.y + box.height < 740) return true;
+      await page.mouse.wheel(0, box && box.y < top ? -120 : 120);
       await frames(page, 10);
       return false;
     },

@@ -66,6 +66,8 @@ fn a_folder_is_gone_through_whatever_fails_and_jobs_change_no_byte() {
     assert_eq!(rows[1]["triangles_out"], report["output"]["triangles"].to_string());
     assert_eq!(rows[1]["deviation_max_mm"].parse::<f64>().ok(), report["deviation_mm"]["max"].as_f64());
     assert_eq!(rows[1]["calibre"], report["calibre"]["verdict"].as_str().unwrap_or_default());
+    let measured = report["calibre"]["measured_percent"].as_f64();
+    assert_eq!(rows[1]["calibre_measured_percent"].parse::<f64>().ok(), measured);
     assert!(rows[2]["error"].contains("broken.stl") && rows[2]["triangles_out"].is_empty(), "{:?}", rows[2]);
 }
 

@@ -1,5 +1,7 @@
 //! `lumen report`: what others read of the page.
 
+use serde_json::Value;
+
 use super::program::{Folder, json, lumen, succeed};
 
 /// The text of a PDF, page by page, as another's reader finds it.
@@ -133,5 +135,50 @@ fn the_numbers_of_a_run_repeat_the_verdict_with_its_remedies() {
     // In its own unit nothing is to be looked at.
     succeed(&["optimise", &file, "--unit", "cm", "-o", &out, "--report", &numbers, "--reduction", "60"]);
     let verdict = &json(&numbers)["verdict"];
-    assert_eq!((&verdict["is_safe"], &verdict["head"]), (&true.into(), &"Safe to simulate on".into()));
+    assert_eq!(verdict["is_safe"], true);
+    // Of 60 mm 3 are left out at each open end.
+    let head = verdict["head"].as_str().unwrap();
+    let percent =
+        head.strip_prefix("Safe to simulate on: ").and_then(|rest| rest.split_once(" % of the length, 1 of 1 vessel"));
+    assert!(percent.is_some_and(|(percent, _)| (87..=93).contains(&percent.parse().unwrap_or(0))), "{head}");
+    let measured = json(&numbers)["calibre"]["measured_percent"].as_f64().unwrap();
+    assert!((measured - 90.0).abs() <= 3.0, "{measured}");
+}
+
+#[test]
+fn every_text_says_how_much_the_verdict_rests_on() {
+    let folder = Folder::new("report-coverage");
+    let (file, out, numbers) = (folder.file("a.obj"), folder.file("a.stl"), folder.file("a.json"));
+    // As wide as half of its length: of 24 mm 12 are measured, between open ends.
+    let scaled = |place: &str| {
+        let at: Vec<f64> = place.split(' ').map(|number| number.parse().unwrap()).collect();
+        format!("v {} {} {}\n", 0.4 * at[0], 2.0 * at[1], 2.0 * at[2])
+    };
+    let line = |line: &str| line.strip_prefix("v ").map_or_else(|| format!("{line}\n"), scaled);
+    let short: String = tube(1.0, 1.0).lines().map(line).collect();
+    std::fs::write(&file, short).unwrap();
+    let run = |more: &[&str]| succeed(&[&["optimise", &file, "-o", &out, "--reduction", "60"], more].concat());
+    let verdict = |told: &str| told.lines().find(|line| line.starts_with("verdict")).unwrap().to_owned();
+    let alone = verdict(&run(&[]));
+    assert!(alone.contains("No vessel was measured (--branches measures them)"), "{alone}");
+    let told = run(&["--branches", "--report", &numbers]);
+    let line = verdict(&told);
+    assert!(line.contains("Kept where measured: ") && line.contains(" % of the length, 1 of 1 vessel"), "{line}");
+    let found = json(&numbers);
+    assert_eq!((&found["verdict"]["is_safe"], &found["calibre"]["verdict"]), (&Value::Null, &"kept".into()));
+    let (all, measured) = (&found["calibre"]["coverage"]["length_mm"], &found["calibre"]["coverage"]["measured_mm"]);
+    let (all, measured) = (all.as_f64().unwrap(), measured.as_f64().unwrap());
+    assert!((all - 24.0).abs() < 0.1 && (measured - 12.0).abs() <= 2.0, "{measured} of {all} mm");
+    let told = succeed(&["optimise", &file, "-o", &out, "--reduction", "safe"]);
+    assert!(told.contains("kept where measured, to") && !told.contains("safe to"), "{told}");
+    for page in ["a.html", "b.pdf"].map(|name| folder.file(name)) {
+        let told = succeed(&["report", &file, "-o", &page, "--no-pictures", "--reduction", "60"]);
+        assert!(told.contains("Kept where measured: ") && !told.contains("Safe"), "{told}");
+        let text = if page.ends_with("pdf") {
+            flat(&text_of(&page).join(" "))
+        } else {
+            std::fs::read_to_string(&page).unwrap()
+        };
+        assert!(text.contains("Kept where measured: ") && !text.contains("Safe"), "{text}");
+    }
 }

@@ -18,6 +18,7 @@ mod smoothing;
 mod smoothing_oracle;
 mod spare_thin;
 mod trial;
+mod verdict;
 
 use libtest_mimic::{Arguments, Trial};
 use lumen_test_support::data::data;
@@ -38,6 +39,7 @@ fn main() {
                 smoothing::trials,
                 smoothing_oracle::trials,
                 trial::trials,
+                verdict::trials,
             ];
             trials.extend(parts.into_iter().flat_map(|part| part(&folder)));
             #[cfg(feature = "scans")]

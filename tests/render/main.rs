@@ -227,6 +227,22 @@ fn a_colour_map_shows_its_published_colours() {
 }
 
 #[test]
+fn what_has_no_number_has_the_walls_colour_or_its_own() {
+    let mesh = square(20.0, 0.0);
+    let camera = in_front_of(&mesh, 1.0);
+    let mut surface = stage().surface(&mesh);
+    surface.set_scalars(&stage().device, &stage().queue, Some(&[1e30; 4])).unwrap();
+    let mapped = Style { map: Some(ColourMap { range: (0.0, 1.0) }), ..plain(WHITE) };
+    for (style, expected) in
+        [(mapped, mapped.surface), (Style { unknown: Some(Style::UNKNOWN), ..mapped }, Style::UNKNOWN)]
+    {
+        let picture = stage().picture([101, 101], &camera, &[shown(&surface, Look::Shaded)], &style);
+        let found = picture.pixel(50, 50).unwrap();
+        assert!(is_near(found, expected, 2), "{found:?}, not {expected:?}");
+    }
+}
+
+#[test]
 fn raking_light_parts_what_stands_ten_degrees_to_either_side() {
     let seen = |degrees: f32, raking: bool| {
         let turn = Quat::from_rotation_z(degrees.to_radians());

@@ -279,8 +279,8 @@ fn the_series_of_most_slices_is_taken_and_the_rest_told_by_number() {
         in_english(&scan.warnings),
         [
             "The files hold 3 series: the one with most slices, 5, is taken, and 2 of 2 others are left out.",
-            "1 files hold no slice in shades of grey and are left out.",
-            "1 slices lie at the place of another: of each place the first is taken.",
+            "1 file holds no slice in shades of grey and is left out.",
+            "1 slice lies at the place of another: of each place the first is taken.",
         ]
     );
 }

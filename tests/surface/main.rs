@@ -7,8 +7,11 @@ mod bad_input;
 mod calibre;
 mod decimation;
 mod fuzz;
+#[cfg(feature = "gui")]
+mod lessons;
 mod lumen_width;
 mod safe;
 mod smoothing;
 mod spare_thin;
+mod verdict;
 mod voxel_tubes;

@@ -158,7 +158,7 @@ proptest! {
             prop_assert!(crossing(&after.mesh) < 0.03, "{} of all faces cross, {settings:?}", crossing(&after.mesh));
         }
         // Flat loops stay flat to within half a voxel, about half an edge; others, tiny ones, come no farther out.
-        let edge = lumen::pipeline::response::edge_length(&kept.mesh);
+        let edge = lumen::mesh::rms_edge(&kept.mesh);
         for chain in kept.loops.as_ref().unwrap() {
             let (middle, normal) = plane(chain, |v| kept.mesh.positions[v as usize].as_dvec3());
             let off = |p: &TriMesh| {

@@ -15,7 +15,7 @@ use anyhow::{Context as _, Result, bail};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 
-use crate::step::{cargo, files_below, root, run, step, target};
+use crate::step::{cargo, files_below, quiet_step, root, run, step, target};
 use crate::{glue, page, tools};
 
 /// The most a first visit may download, in bytes, each file compressed with gzip.
@@ -44,7 +44,7 @@ pub(crate) fn build() -> Result<PathBuf> {
     let dist = root().join("dist");
     tools::wasm_target()?;
     let npm = tools::npm()?;
-    step("Compile the browser app", || {
+    quiet_step("Compile the browser app", 480.0, || {
         PROGRAMS.into_iter().try_for_each(|program| {
             let options = ["--quiet", "--release", "--target=wasm32-unknown-unknown", "--package", program];
             run(cargo().arg("build").args(options))
@@ -58,7 +58,7 @@ pub(crate) fn build() -> Result<PathBuf> {
         // What is there stays until all of the new is.
         let made = target().join("dist");
         step("Lay out dist/ with wasm-bindgen", || lay_out(&made))?;
-        step("Optimise the modules with wasm-opt", || {
+        quiet_step("Optimise the modules with wasm-opt", 40.0, || {
             PROGRAMS.into_iter().try_for_each(|program| optimise(&npm, &made.join(module(program))))
         })?;
         step("Shorten the scripts with terser", || {

@@ -40,6 +40,7 @@ fn files_that_documents_name_are_there() {
     let is_document = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "md");
     let mut documents = files_below(&root().join("docs")).unwrap();
     documents.extend(["ARCHITECTURE.md", "CONTRIBUTING.md", "README.md", "SECURITY.md"].map(|name| root().join(name)));
+    documents.extend(crates().into_iter().map(|folder| folder.join("README.md")));
     let (mut found, mut missing) = (0, Vec::new());
     for document in documents.into_iter().filter(is_document) {
         for (line, number) in std::fs::read_to_string(&document).unwrap().lines().zip(1..) {
@@ -52,10 +53,35 @@ fn files_that_documents_name_are_there() {
     assert!(missing.is_empty(), "{}", missing.join("\n"));
 }
 
+/// The folders of the crates.
+fn crates() -> Vec<PathBuf> {
+    let folders = std::fs::read_dir(root().join("crates")).unwrap();
+    folders.map(|folder| folder.unwrap().path()).filter(|folder| folder.is_dir()).collect()
+}
+
+/// A crate stands by itself: it says in a line and on half a page what it is, shows that by an example that is run, and
+/// names the file for each thing.
+#[test]
+fn every_crate_is_described_where_others_would_look() {
+    for folder in crates() {
+        let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap_or_default();
+        let (readme, manifest) = (read("README.md"), read("Cargo.toml"));
+        let name = folder.file_name().unwrap().to_string_lossy();
+        assert!(manifest.contains("\ndescription = ") && manifest.contains("\nreadme = \"README.md\""), "{name}");
+        assert!(read("src/lib.rs").starts_with("#![doc = include_str!(\"../README.md\")]"), "{name}");
+        assert!(readme.starts_with(&format!("# {name}\n")) && readme.contains("Licence: "), "{name}");
+        let code = readme.split("```rust").nth(1).and_then(|behind| behind.split("```").next()).unwrap_or_default();
+        assert!(code.contains("assert"), "{name}: no example");
+        let words = readme.split("```").step_by(2).flat_map(str::split_whitespace).count();
+        assert!((80..=250).contains(&words), "{name}: {words} words");
+    }
+}
+
 /// How many files and folders of those that a line names are there, and the others. A name may go on from the folder that
 /// one before it in the line is, or is in.
 fn named(line: &str, folder: &Path) -> (usize, Vec<String>) {
-    let mut places = vec![root().to_path_buf(), root().join("src"), root().join("docs"), folder.to_path_buf()];
+    let [src, docs] = ["src", "docs"].map(|name| root().join(name));
+    let mut places = vec![root().to_path_buf(), src, docs, folder.to_path_buf(), folder.join("src")];
     let (mut found, mut missing) = (0, Vec::new());
     let is_here = |name: &String| !ELSEWHERE.iter().any(|folder| name.starts_with(folder));
     for (name, is_path) in names(line).into_iter().filter(|(name, _)| is_here(name)) {

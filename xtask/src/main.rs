@@ -109,7 +109,9 @@ enum Command {
 
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
-        Command::Serve { port, open } => build::build().and_then(|dist| serve::serve(&dist, port, open)),
+        Command::Serve { port, open } => {
+            serve::take_port(port).and_then(|server| serve::serve(&server, &build::build()?, open))
+        }
         Command::Build => build::build().map(|_| ()),
         Command::Test { only, quick, long } => {
             let extent = match (quick, long) {

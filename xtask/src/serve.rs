@@ -10,9 +10,13 @@ use tiny_http::{Header, Method, Request, Response, Server};
 use crate::build::gzip;
 use crate::package::HEADERS;
 
+/// Takes a port of this machine, 0 a free one: before the build, so that one that is taken is told at once.
+pub(crate) fn take_port(port: u16) -> Result<Server> {
+    Server::http(("127.0.0.1", port)).map_err(|error| anyhow!("port {port}: {error}; --port 0 takes a free one"))
+}
+
 /// Serves `dist` until the program is stopped.
-pub(crate) fn serve(dist: &Path, port: u16, open: bool) -> Result<()> {
-    let server = Server::http(("127.0.0.1", port)).map_err(|error| anyhow!("port {port}: {error}"))?;
+pub(crate) fn serve(server: &Server, dist: &Path, open: bool) -> Result<()> {
     let port = server.server_addr().to_ip().context("the server has no address")?.port();
     let address = format!("http://127.0.0.1:{port}/");
     eprintln!("==> Lumen is at {address} (Ctrl+C ends it)");

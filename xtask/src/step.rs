@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::Instant;
+use std::sync::mpsc::RecvTimeoutError;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result, bail};
 
@@ -39,6 +40,43 @@ pub(crate) fn step<T>(what: &str, work: impl FnOnce() -> Result<T>) -> Result<T>
         eprintln!("    {what}: {:.1} s", begun.elapsed().as_secs_f64());
     }
     result
+}
+
+/// [`step`] for work that prints nothing by itself for long: says every ten seconds how far it is, by what it took the last
+/// time, or at first `usual_s`, the seconds it takes from nothing on two cores.
+pub(crate) fn quiet_step<T>(what: &str, usual_s: f64, work: impl FnOnce() -> Result<T>) -> Result<T> {
+    let file = target().join("steps").join(format!("{}.seconds", what.replace(' ', "-").to_lowercase()));
+    let last = std::fs::read_to_string(&file).ok().and_then(|text| text.trim().parse().ok());
+    let expected = last.unwrap_or(usual_s);
+    let begun = Instant::now();
+    let result = step(what, || {
+        eprintln!("    takes about {}", duration(expected));
+        std::thread::scope(|scope| {
+            let (done, ended) = std::sync::mpsc::channel::<()>();
+            scope.spawn(move || {
+                while ended.recv_timeout(Duration::from_secs(10)) == Err(RecvTimeoutError::Timeout) {
+                    eprintln!("    {} of about {}", duration(begun.elapsed().as_secs_f64()), duration(expected));
+                }
+            });
+            let result = work();
+            drop(done);
+            result
+        })
+    });
+    if result.is_ok() {
+        // Without it the next run has the usual time, which is no harm.
+        let _ = std::fs::create_dir_all(target().join("steps"))
+            .and_then(|()| std::fs::write(&file, format!("{:.1}", begun.elapsed().as_secs_f64())));
+    }
+    result
+}
+
+/// Seconds, as people say them.
+fn duration(seconds: f64) -> String {
+    match seconds.round() as u64 {
+        seconds @ 0..90 => format!("{seconds} s"),
+        seconds => format!("{} min {} s", seconds / 60, seconds % 60),
+    }
 }
 
 fn lower_first(text: &str) -> String {

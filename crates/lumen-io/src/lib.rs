@@ -1,26 +1,4 @@
-//! Bytes to mesh and back, one file a format, with a report of what was found and what was mended.
-//!
-//! What a format is called, how it is told and who reads and writes it stands in one table ([`formats`]).
-//!
-//! Reading is two steps. A format's file (`stl`, `obj`) or folder (`ply`, `gltf`, `vtk`) turns bytes into the polygons that stand in
-//! them and judges nothing but its own syntax; the import stage (`import`) then welds, triangulates, cleans and
-//! orients, the same for every format and for generated surfaces ([`import_mesh`]). Which file reads is decided by
-//! the content first and by the extension only where the content does not say (`detect`).
-//!
-//! Scans and masks are read by `volume` (feature `scans`), which knows nothing of the rest but its texts and errors.
-//!
-//! glTF has y upwards by its specification and Lumen z: it is turned on the way in and back on the way out. Which way a
-//! patient lies is known only where a file says so (`axes`).
-//!
-//! Numbers in a file are millimetres unless [`ImportOptions::unit`] says otherwise; glTF is metres, as its
-//! specification has it. Nothing is rescaled silently: a size that no vessel has draws a warning.
-//!
-//! A surface far from the origin of its coordinates is read relative to a place within it (`far`), so that its detail
-//! is not rounded away; the report says by what it was moved.
-//!
-//! No memory is allocated because a header claims it: every count is checked against the bytes that are there, and what
-//! a few bytes unfold to against the room that a file of their number has (`room`).
-
+#![doc = include_str!("../README.md")]
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
 
 mod axes;

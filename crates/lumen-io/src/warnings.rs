@@ -126,7 +126,12 @@ messages! {
             }
         },
         "scan-dicom-same-place" SamePlace { count: usize } =>
-            { format!("{} slices lie at the place of another: of each place the first is taken.", grouped(*count)) },
+            {
+                match count {
+                    1 => "1 slice lies at the place of another: of each place the first is taken.".to_owned(),
+                    _ => format!("{} slices lie at the place of another: of each place the first is taken.", grouped(*count)),
+                }
+            },
         "scan-dicom-series" Series { count: usize, taken: usize, slices: usize, others: usize } => {
             let of = match *others {
                 1 => "the other".to_owned(),
@@ -136,7 +141,12 @@ messages! {
             format!("The files hold {count} series: the one with most slices, {taken}, is taken, and {slices} of {of} are left out.")
         },
         "scan-dicom-no-slices" NoSlices { count: usize } =>
-            { format!("{} files hold no slice in shades of grey and are left out.", grouped(*count)) },
+            {
+                match count {
+                    1 => "1 file holds no slice in shades of grey and is left out.".to_owned(),
+                    _ => format!("{} files hold no slice in shades of grey and are left out.", grouped(*count)),
+                }
+            },
         "scan-dicom-gap" Gap { usual: f64 [3], there: f64 [3], below: usize, above: usize } =>
             "The slices are not evenly apart: mostly {usual:.3} mm, but {there:.3} mm between slices {below} and {above}; some may be missing, and the surface is stretched there.",
         "scan-dicom-squeeze" Squeeze { usual: f64 [3], there: f64 [3], below: usize, above: usize } =>

@@ -1,16 +1,4 @@
-//! The languages of the app. Everything it says to a user stands in `locales/`, in [Project Fluent]'s format: a folder a
-//! language, a file for each part of the app, the same messages in each. English is complete and built in; what another
-//! language lacks is said in English.
-//!
-//! A message is said by its name with [`say!`], or kept as a [`Key`] where a table names what is said later. Numbers that
-//! are given to a message are grouped, and have their decimal mark, as the language has it; [`decimal`] does so for a number
-//! with a fixed count of decimals, and [`parse`] reads what is typed, with a decimal point or comma.
-//!
-//! What is spoken belongs to the thread: an engine in a Worker is told by `Command::Speak`. What is written for programs or
-//! for the record of a method (files, the command line, reports of `lumen report`) stays in English, since nobody calls
-//! [`speak`] there.
-//!
-//! [Project Fluent]: https://projectfluent.org
+#![doc = include_str!("../README.md")]
 
 mod catalogue;
 mod digits;

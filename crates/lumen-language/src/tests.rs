@@ -248,3 +248,54 @@ fn every_message_that_is_said_is_there_and_every_one_that_is_there_is_said() {
     let unsaid: Vec<&String> = english.keys().filter(|name| !names.contains(name)).collect();
     assert_eq!(unsaid, Vec::<&String>::new(), "nobody says these");
 }
+
+/// Thresholds and sizes that are never one.
+const MANY: [&str; 5] =
+    ["compare-figure-legend", "compare-slow", "record-pixels", "views-large", "panel-array-components"];
+
+#[test]
+fn one_of_what_is_counted_is_singular() {
+    let plurals =
+        ["triangles", "pieces", "vertices", "edges", "labels", "iterations", "places", "neighbours", "passes"];
+    let german =
+        ["Dreiecke", "Dreiecken", "Stücke", "Stücken", "Eckpunkte", "Kanten", "Labels", "Iterationen", "Stellen"];
+    let french =
+        ["triangles", "morceaux", "sommets", "arêtes", "étiquettes", "itérations", "endroits", "voisins", "passes"];
+    let of_language = [(Language::English, plurals), (Language::German, german), (Language::French, french)];
+    for (language, plurals) in of_language {
+        speak(language, built_in(language).unwrap());
+        let own: Vec<_> =
+            found("en").into_keys().map(|(_, name)| name).filter(|name| !MANY.contains(&&**name)).collect();
+        for ((_, name), message) in found(language.tag()).into_iter().filter(|((_, name), _)| own.contains(name)) {
+            for on in ["vertices", "triangles"] {
+                let mut said = Message::new(name.clone().leak());
+                for place in &message.places {
+                    let value = if place == "on" { Value::Text(on.into()) } else { Value::Number(1.0) };
+                    said.put(place.clone().leak(), value);
+                }
+                let text = said.say();
+                let words: Vec<&str> = text.split([' ', ',', '.', ':', ';', '\u{a0}']).collect();
+                let wrong = words.windows(2).find(|pair| pair[0] == "1" && plurals.contains(&pair[1]));
+                assert_eq!(wrong, None, "{language:?}, {name}: {text}");
+            }
+        }
+    }
+    speak(Language::English, &[]);
+}
+
+#[test]
+fn no_tooltip_breaks_a_line_between_a_number_and_its_unit() {
+    for language in Language::ALL {
+        for ((file, name), found) in found(language.tag()).into_iter().filter(|((_, name), _)| name.ends_with("-help"))
+        {
+            let words: Vec<&str> = found.words.split(' ').collect();
+            let is_number = |word: &str| word.ends_with(|c: char| c.is_ascii_digit() || c == '}');
+            let is_unit = |word: &str| {
+                ["mm", "cm", "%", "MB", "GB", "HU", "N", "ms"]
+                    .contains(&word.trim_end_matches(['.', ',', ';', ':', '\n']))
+            };
+            let broken = words.windows(2).find(|pair| is_number(pair[0]) && is_unit(pair[1]));
+            assert_eq!(broken, None, "{language:?}, {file}: {name}");
+        }
+    }
+}

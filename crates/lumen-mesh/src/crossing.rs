@@ -3,7 +3,8 @@
 //! The definition is that of MeshLab's "select self intersecting faces" (VCGlib), so that numbers can be compared, but for
 //! its epsilon, which here goes with the triangles' size:
 //!
-//! - triangles over the same three vertices do;
+//! - triangles over the same three vertices do, however they lie (VCGlib misses those in a plane along two axes, whose boxes have no
+//!   volume);
 //! - triangles with a common edge never do, even folded flat onto each other;
 //! - triangles with one common vertex do where the opposite edge of one, moved half-way to that vertex, crosses the
 //!   inside of the other: their common line beyond the vertex then lies in both;
@@ -45,7 +46,7 @@ pub fn cross_at_all(a: &Face, b: &Face) -> bool {
 /// The same, where a crossing within a part of a triangle's height from a side does not count.
 fn cross_beyond(margin: f64, a: &Face, b: &Face) -> bool {
     if !boxes_overlap(a.corners, b.corners) {
-        return false;
+        return a.vertices.iter().all(|v| b.vertices.contains(v));
     }
     let mut common = (0, 0, 0);
     for (i, v) in a.vertices.iter().enumerate() {
@@ -245,9 +246,11 @@ mod tests {
     fn neighbours_over_an_edge_never_cross_and_doubles_always_do() {
         let folded = Face { vertices: [0, 1, 3], corners: [FLOOR[0], FLOOR[1], FLOOR[2] + Vec3::splat(0.01)] };
         assert!(!cross(&face(0, FLOOR), &folded));
-        let tilted = [Vec3::ZERO, Vec3::X, Vec3::new(0.0, 1.0, 1.0)];
-        let double = Face { vertices: [2, 0, 1], corners: [tilted[2], tilted[0], tilted[1]] };
-        assert!(cross(&face(0, tilted), &double));
+        for corners in [[Vec3::ZERO, Vec3::X, Vec3::new(0.0, 1.0, 1.0)], FLOOR] {
+            let double = Face { vertices: [2, 0, 1], corners: [corners[2], corners[0], corners[1]] };
+            let back = Face { vertices: [1, 0, 2], corners: [corners[1], corners[0], corners[2]] };
+            assert!(cross(&face(0, corners), &double) && cross(&face(0, corners), &back), "{corners:?}");
+        }
     }
 
     #[test]

@@ -17,6 +17,7 @@
 
 use glam::{DVec3, Vec3, Vec4};
 
+use super::ball::Ball;
 use super::nearest::{Leaf, Node, STACK, SurfaceIndex};
 use super::ray::Hit;
 use super::{Topology, TriMesh};
@@ -28,15 +29,6 @@ const FACING: [f64; 2] = [0.965_925_826_289_068_3, 0.258_819_045_102_520_7];
 const ENOUGH: f64 = 1e-6;
 /// Steps on one triangle. Each lands on the triangle's nearest point to a smaller ball; two or three do.
 const STEPS: usize = 8;
-
-/// A ball that touches the wall from inside.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InnerBall {
-    /// Its middle, in mm.
-    pub centre: Vec3,
-    /// Its radius in mm.
-    pub radius: f32,
-}
 
 /// A vertex this near to another, as a part of that one's radius, takes its radius over.
 const NEAR: f32 = 0.2;
@@ -51,6 +43,16 @@ pub struct InnerRadii {
     pub radii: Vec<f32>,
     /// The vertices whose balls were found, ascending; the others took theirs over.
     pub own: Vec<u32>,
+}
+
+impl InnerRadii {
+    /// The ball that touches the wall at vertex `v`; `None` where no wall faces it. `mesh` and `topology` are those of the
+    /// surface that they were found in.
+    pub fn ball(&self, mesh: &TriMesh, topology: &Topology, v: u32) -> Option<Ball> {
+        let radius = self.radii[v as usize];
+        let normal = outward_normal(mesh, topology, v).filter(|_| radius.is_finite())?;
+        Some(Ball { centre: mesh.positions[v as usize] - normal * radius, radius })
+    }
 }
 
 /// The inner balls of a surface; `topology` and `index` must be those of `mesh`.
@@ -157,7 +159,7 @@ impl Shrinking {
 impl SurfaceIndex {
     /// The largest ball of at most `limit` mm that touches the surface from inside at `p`, a point of it with outward
     /// normal `normal` (of length 1). `None` where no wall faces `p` within that ball.
-    pub fn inner_ball(&self, p: Vec3, normal: Vec3, limit: f32) -> Option<InnerBall> {
+    pub fn inner_ball(&self, p: Vec3, normal: Vec3, limit: f32) -> Option<Ball> {
         if !(p.is_finite() && normal.is_finite() && limit.is_finite() && limit > 0.0) {
             return None;
         }
@@ -197,7 +199,7 @@ impl SurfaceIndex {
             }
         }
         let centre = ball.centre().as_vec3();
-        Some(InnerBall { centre, radius: ball.radius as f32 })
+        Some(Ball { centre, radius: ball.radius as f32 })
     }
 
     /// The inner ball at the place of the surface that is nearest to `p`: where it touches, and the ball. Its normal is
@@ -209,7 +211,7 @@ impl SurfaceIndex {
         triangles: &[[u32; 3]],
         p: Vec3,
         limit: f32,
-    ) -> Option<(Vec3, InnerBall)> {
+    ) -> Option<(Vec3, Ball)> {
         let nearest = self.nearest(p)?;
         let corners = *triangles.get(nearest.triangle as usize)?;
         let mut normals = [DVec3::ZERO; 3];
@@ -295,7 +297,7 @@ mod tests {
     use crate::shapes::{icosphere, sagitta, square, tube};
     use crate::task::{Budget, Progress, Running};
 
-    fn balls(mesh: &TriMesh, limit: f32) -> Vec<Option<InnerBall>> {
+    fn balls(mesh: &TriMesh, limit: f32) -> Vec<Option<Ball>> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
         let ball = |v: usize| index.inner_ball(mesh.positions[v], outward_normal(mesh, &topology, v as u32)?, limit);

@@ -1,11 +1,9 @@
-//! The surface: a list of triangles over shared vertices, in millimetres, and what can be asked of it.
-//!
-//! [`TriMesh`] holds data and knows no algorithm; each algorithm is a file beside it.
-
+#![doc = include_str!("../README.md")]
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
 
 mod angles;
 pub mod arrays;
+mod ball;
 mod blend;
 mod boundary;
 mod bounds;
@@ -44,6 +42,7 @@ pub mod winding;
 pub use angles::AngleCounts;
 pub use angles::{Angles, angles};
 pub use arrays::{Array, ArrayInfo};
+pub use ball::Ball;
 pub use blend::{Blend, blended};
 pub use boundary::boundary_loops;
 pub use bounds::Bounds;
@@ -55,10 +54,11 @@ pub use cut::{Outline, cut, cut_pieces};
 pub use glam::Vec3;
 pub use hausdorff::{FarPoint, HausdorffBound, TOLERANCE};
 pub use index_build::IndexBuild;
-pub use inner_ball::{InnerBall, InnerRadii, inner_radii, inner_radii_in_slices, outward_normal};
+pub use inner_ball::{InnerRadii, inner_radii, inner_radii_in_slices, outward_normal};
 pub use inside::Sides;
 pub use measures::{
-    Measures, measures, measures_within, oriented_loops, surface_area, triangle_area, volume, volume_of,
+    Measures, mean_edge, measures, measures_within, oriented_loops, rms_edge, surface_area, triangle_area, volume,
+    volume_of,
 };
 pub use nearest::{Nearest, SurfaceIndex};
 pub use refit::refitted;

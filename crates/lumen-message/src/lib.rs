@@ -1,9 +1,4 @@
-//! Errors, warnings and findings as data: an identifier for translators, values, and plain English.
-//!
-//! [`messages!`] declares an enum of messages. Each variant has an identifier (the key of its translations), fields, and
-//! an English sentence, which is its `Display`. Logic matches on variants; tests compare data; a program above the
-//! libraries translates by [`Message::id`] and [`Message::values`]. [`Told`] is any message without its type, for
-//! events that cross between threads.
+#![doc = include_str!("../README.md")]
 
 mod told;
 mod value;

@@ -1,9 +1,4 @@
-//! The method: connectivity, smoothing, normals, decimation to a progressive mesh, deviation.
-//!
-//! Each algorithm is a file. [`stage`] says what the stages are and what each rests on, `stages/` what each does, and
-//! [`run`] goes through them and remembers what each made, so that a change of a setting recomputes from the first stage
-//! that it touches.
-
+#![doc = include_str!("../README.md")]
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
 
 pub mod bound;
@@ -17,8 +12,6 @@ pub mod filter;
 pub mod histogram;
 pub mod laplacian;
 mod lines;
-pub mod lumen;
-pub mod narrowest;
 pub mod normals;
 pub mod one_collapse;
 pub mod paper;
@@ -38,7 +31,6 @@ mod store;
 mod times;
 pub mod verdict;
 pub mod warnings;
-mod widths;
 
 pub use lumen_mesh::task;
 
@@ -56,6 +48,7 @@ pub const MESSAGES: &[&[lumen_message::Signature]] = &[
     stage::Stage::MESSAGES,
     verdict::FindingKind::MESSAGES,
     verdict::Head::MESSAGES,
+    verdict::HeadText::MESSAGES,
     verdict::PlaceLabel::MESSAGES,
     verdict::RemedyLabel::MESSAGES,
     warnings::DrawnShut::MESSAGES,

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::deviation::Deviation;
-use super::lumen::Narrowing;
 use super::pinch::Pinch;
 use super::progressive::Shortfall;
 use super::response::SmoothingResponse;
@@ -19,7 +18,8 @@ use lumen_io::{Axes, Unit};
 use lumen_mesh::arrays::infos;
 use lumen_mesh::mending::{FaultCounts, MendReport};
 use lumen_mesh::{ArrayInfo, Measures, TriMesh, components};
-use lumen_vessel::certificate::{BranchCalibre, CalibreError, Verdict};
+use lumen_vessel::certificate::{BranchCalibre, CalibreError, Coverage, Verdict};
+use lumen_vessel::width::Narrowing;
 
 /// What stands in every report.
 pub const DISCLAIMER: &str = "Not for clinical decisions.";
@@ -210,6 +210,12 @@ pub struct CalibreReport {
     pub tolerance_percent: f64,
     /// Changed where one branch is, kept where the others are; null where there is no vessel tree.
     pub verdict: Option<Verdict>,
+    /// How much of the vessels that is said of; null where there is no vessel tree.
+    #[serde(default)]
+    pub coverage: Option<Coverage>,
+    /// The part of the length that is measured, in percent; null likewise.
+    #[serde(default)]
+    pub measured_percent: Option<f64>,
     /// Why there is no vessel tree; null where there is one.
     pub refused: Option<String>,
     /// Milliseconds that it took.
@@ -221,10 +227,17 @@ pub struct CalibreReport {
 pub struct SafeReport {
     /// The change of calibre in percent that is allowed.
     pub tolerance_percent: f64,
-    /// The highest rate up to which every vessel keeps its calibre, in percent; null where no vessel can be measured.
+    /// The highest rate up to which every vessel keeps its calibre, as far as it is measured, in percent; null where no vessel
+    /// can be measured.
     pub percent: Option<f64>,
     /// Triangles at that rate.
     pub triangles: Option<usize>,
+    /// How much of the vessels is measured at that rate; null where there is none.
+    #[serde(default)]
+    pub coverage: Option<Coverage>,
+    /// Whether so much is measured that the rate is safe for the whole surface.
+    #[serde(default)]
+    pub is_covered: bool,
     /// Why it does not go further: a branch that is changed at the next rate, or a pinch; null where nothing stops it.
     pub stopped_by: Option<String>,
     /// Each branch by itself.
@@ -239,6 +252,8 @@ impl SafeReport {
             tolerance_percent: safe.tolerance_percent,
             percent: safe.percent,
             triangles: safe.triangles,
+            coverage: safe.coverage,
+            is_covered: safe.is_covered(),
             stopped_by: safe.stopped_by.as_ref().map(Stop::to_string),
             branches: safe.branches.clone(),
             refused: safe.refused.as_ref().map(NoSafeRate::to_string),
@@ -317,6 +332,8 @@ impl Report {
             calibre: certified.map(|found| CalibreReport {
                 tolerance_percent: pipeline.settings().tolerance_percent,
                 verdict: found.as_ref().ok().map(|found| found.certificate.verdict),
+                coverage: found.as_ref().ok().map(|found| found.certificate.coverage),
+                measured_percent: found.as_ref().ok().map(|found| found.certificate.coverage.percent()),
                 refused: found.as_ref().err().map(CalibreError::to_string),
                 ms: pipeline.times().calibre,
             }),

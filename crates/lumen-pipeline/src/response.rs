@@ -13,7 +13,6 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::filter::Filter;
-use lumen_mesh::{TriMesh, Vec3};
 use lumen_message::{ToValue, Value, messages};
 
 /// Where a filter cuts, without unit and in mm on one surface.
@@ -120,17 +119,6 @@ pub fn wavelength(k: f64, edge_length: f64) -> Option<f64> {
         if 1.0 - libm::j0(middle) < k { low = middle } else { high = middle }
     }
     Some(2.0 * PI * edge_length / high)
-}
-
-/// Root mean square of the lengths of the triangles' sides, in mm: an edge counts once for each of its triangles. 0
-/// for a surface without triangles.
-pub fn edge_length(mesh: &TriMesh) -> f64 {
-    let squares = (0..mesh.triangles.len()).map(|t| {
-        let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
-        (b - a).length_squared() + (c - b).length_squared() + (a - c).length_squared()
-    });
-    let sum: f64 = squares.sum();
-    libm::sqrt(sum / (3 * mesh.triangles.len()).max(1) as f64)
 }
 
 #[cfg(test)]

@@ -9,7 +9,6 @@ use super::bound::Bound;
 use super::connectivity::Connectivity;
 use super::deviation::Comparison;
 use super::filter::Filter;
-use super::lumen::{Narrowing, Sample};
 use super::pinch::Pinch;
 use super::progressive::{Level, ProgressiveMesh};
 use super::response::SmoothingResponse;
@@ -19,8 +18,9 @@ use super::shape::Shape;
 pub use super::times::StageTimes;
 use super::times::Times;
 use lumen_mesh::mending::{Faults, MendReport};
-use lumen_mesh::{Array, Measures, SurfaceIndex, Topology, TriMesh};
+use lumen_mesh::{Array, Ball, Measures, SurfaceIndex, Topology, TriMesh};
 use lumen_vessel::certificate::{Basis, CalibreError, Certificate};
+use lumen_vessel::width::Narrowing;
 
 /// What the stages made, a slot each; shared, so that a copy costs nothing.
 #[derive(Clone, Default)]
@@ -216,8 +216,8 @@ pub struct Deviations {
 pub struct SmoothedMeasures {
     /// Its shape.
     pub shape: Shape,
-    /// The middles of its vessels.
-    pub samples: Arc<[Sample]>,
+    /// The middles of its vessels, each with its clearance.
+    pub samples: Arc<[Ball]>,
     /// Where and from which rate on a vessel is pinched, if one is.
     pub pinch: Option<Pinch>,
 }

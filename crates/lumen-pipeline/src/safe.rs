@@ -11,6 +11,10 @@
 //! Branches that smoothing itself has changed by more are told, and do not count: no rate would be safe for them. A
 //! branch of which a tenth can no longer be measured counts as changed, but for places where the plane has another loop
 //! though the wall has not moved (`StationStatus::Ambiguous`): of these there is nothing to say, neither for nor against.
+//!
+//! What is said is said of what is measured (`lumen_vessel::certificate::Coverage`). Where enough of the length is measured at
+//! first, a rate at which less is measured is not safe. Where it is not at first, the vessels are kept up to the rate as far as
+//! they are measured, and the surface as a whole is not called safe at any.
 
 use std::sync::Arc;
 
@@ -22,7 +26,7 @@ use super::settings::{Target, reduction_percent};
 use super::task::Yielder;
 use lumen_mesh::TriMesh;
 use lumen_message::{Signed, messages};
-use lumen_vessel::certificate::{Basis, BranchCalibre, CalibreError, StationStatus, Verdict};
+use lumen_vessel::certificate::{Basis, BranchCalibre, CalibreError, Coverage, StationStatus, Verdict};
 use lumen_vessel::{BranchName, Subject};
 
 /// The rates that are looked at, in tenths of a percent; the first is the smoothed surface itself.
@@ -36,10 +40,13 @@ const MEASURED: f64 = 0.9;
 pub struct Safe {
     /// The change of calibre in percent that is allowed.
     pub tolerance_percent: f64,
-    /// The highest rate up to which every vessel keeps its calibre, in percent; `None` where no vessel can be measured.
+    /// The highest rate up to which every vessel keeps its calibre, as far as it is measured, in percent; `None` where no
+    /// vessel can be measured.
     pub percent: Option<f64>,
     /// Triangles at that rate.
     pub triangles: Option<usize>,
+    /// How much of the vessels is measured at that rate; `None` where there is none.
+    pub coverage: Option<Coverage>,
     /// Why it does not go further; `None` where nothing stops it.
     pub stopped_by: Option<Stop>,
     /// Each branch by itself.
@@ -74,6 +81,13 @@ messages! {
             /// The branch.
             name: BranchName,
         } => "At {rate:.1} % {name} can no longer be measured",
+        /// Too little can be measured at the next rate.
+        "verdict-safe-uncovered" Uncovered {
+            /// The next rate, in percent.
+            rate: f64 [1],
+            /// The part of the length that can be measured, in percent.
+            percent: f64 [0],
+        } => "At {rate:.1} % no more than {percent:.0} % of the vessels' length can be measured",
     } or {
         /// A vessel is pinched at the next rate.
         Pinched(PinchMessage),
@@ -126,7 +140,13 @@ impl Safe {
     /// No rate, for this reason.
     pub fn refused(tolerance_percent: f64, why: NoSafeRate) -> Self {
         let refused = Some(why);
-        Self { tolerance_percent, percent: None, triangles: None, stopped_by: None, branches: Vec::new(), refused }
+        let (percent, triangles, coverage, stopped_by, branches) = (None, None, None, None, Vec::new());
+        Self { tolerance_percent, percent, triangles, coverage, stopped_by, branches, refused }
+    }
+
+    /// Whether so much is measured that the rate is safe for the whole surface, and not only kept where it is measured.
+    pub fn is_covered(&self) -> bool {
+        self.coverage.is_some_and(|found| found.is_enough())
     }
 }
 
@@ -180,6 +200,10 @@ impl Look {
         (Self { per_mille, reached, triangles, branches: Vec::new() }, progressive.extract(&level.triangles))
     }
 
+    fn coverage(&self) -> Coverage {
+        Coverage::of(&self.branches)
+    }
+
     fn percent(&self) -> f64 {
         self.reached.unwrap_or(f64::from(self.per_mille) / 10.0)
     }
@@ -212,8 +236,14 @@ impl Search {
         self.pinch.is_some_and(|pinch| f64::from(per_mille) / 10.0 >= pinch.from_percent - 1e-6)
     }
 
+    /// Whether too little is measured there, though at first it was enough.
+    fn is_uncovered(&self, look: &Look) -> bool {
+        let is_enough = |look: &Look| look.coverage().is_enough();
+        self.looks.first().is_some_and(is_enough) && !is_enough(look)
+    }
+
     fn is_safe(&self, look: &Look) -> bool {
-        self.changed(look).is_none() && !self.is_pinched(look.per_mille)
+        self.changed(look).is_none() && !self.is_pinched(look.per_mille) && !self.is_uncovered(look)
     }
 
     /// The last rate that is safe with all before it, and the first that is not.
@@ -270,12 +300,16 @@ impl Search {
                 }
                 _ => Stop::Unmeasured { rate: look.percent(), name: branch.label() },
             }),
+            None if self.is_uncovered(look) => {
+                Some(Stop::Uncovered { rate: look.percent(), percent: look.coverage().percent().floor() })
+            }
             None => self.pinch.map(|pinch| Stop::Pinched(pinch.message())),
         });
         Safe {
             tolerance_percent: self.tolerance_percent,
             percent: good.map(Look::percent),
             triangles: good.map(|look| look.triangles),
+            coverage: good.map(Look::coverage),
             stopped_by,
             branches: first.iter().enumerate().map(|(i, branch)| self.branch(i, branch)).collect(),
             refused,

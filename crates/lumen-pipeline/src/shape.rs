@@ -1,19 +1,19 @@
 //! The shape of a surface in numbers: roughness, the angles of its triangles, triangles that run into each other, and
 //! how narrow its lumen gets.
 //!
-//! What the smallest lumen is, `narrowest.rs` says.
+//! What the smallest lumen is, `lumen_vessel::width` says.
 
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::narrowest::{Narrowest, narrowest};
 use super::task::{Yielder, at_once, blocks};
 use lumen_mesh::parallel;
 use lumen_mesh::{
     AngleCounts, Angles, Crossing, Indexed, InnerRadii, Roughness, SurfaceIndex, Topology, TriMesh, bends,
     inner_radii_in_slices, summarise_bends,
 };
+use lumen_vessel::width::{Narrowest, narrowest};
 
 /// The shape of a surface.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -1,10 +1,10 @@
 //! What a user should hear about the numbers of a run.
 
-use super::lumen::{Narrowing, SHUT};
 use super::pinch::PinchMessage;
 use super::report::Report;
 use lumen_mesh::mending::MendWarning;
 use lumen_message::{Signed, grouped, messages};
+use lumen_vessel::width::{Narrowing, SHUT};
 
 /// A change of volume, in percent, above which a report warns.
 const LARGE_CHANGE: f64 = 10.0;

@@ -5,7 +5,7 @@ use super::Colour;
 
 /// How scalars on a surface become colours: `range.0` takes the first colour, `range.1` the last; beyond them
 /// the colours stay. A range without a width puts everything at or below it to the first. Where a scalar is more than
-/// [`UNKNOWN`](Self::UNKNOWN) the surface has its own colour.
+/// [`UNKNOWN`](Self::UNKNOWN) the surface has its own colour, or that of [`Style::unknown`](super::Style::unknown).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColourMap {
     /// Scalars of the first and the last colour.

@@ -2,7 +2,7 @@
 //!
 //! A kind of drawing is a file with a shader of the same name. The file holds the thing, which implements [`Draw`], and
 //! its [`Pipelines`], which the [`Renderer`](super::Renderer) makes when they are first used. A new kind takes these two
-//! files and a line in `mod.rs`.
+//! files and a line for each in `lib.rs`. WebGL2 has no storage buffers, no compute, no wide lines and no polygon mode.
 
 use std::any::Any;
 use std::fmt::Debug;

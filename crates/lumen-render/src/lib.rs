@@ -1,31 +1,4 @@
-//! What wgpu draws: one camera, one light, a vessel shaded or as a wireframe. It knows [`mesh`](lumen_mesh) alone.
-//!
-//! - A [`Target`] is what one view renders to: a picture for the window to show, or to read back as a [`Picture`], and
-//!   what it is drawn by. That of a 3-D view ([`ViewTarget`]) has 4x multisampled colour and depth.
-//! - A [`GpuSurface`] holds the positions of all nodes of a progressive mesh, uploaded once; a level brings triangles,
-//!   edges and normals. A [`GpuWire`] is written anew every frame (`tube`).
-//! - A [`Renderer`] records pictures of things that implement [`Draw`], seen by a [`Camera`] in a [`Style`]. Each thing
-//!   draws in one or more [`Phase`]s. [`Backdrop`], [`Drawable`], [`GpuSlice`], [`GpuWire`], [`Glass`], [`Inside`] and
-//!   [`Body`] are such things.
-//! - A kind of drawing is one file with one shader (`draw`): over the camera and the theme (`scene`) and a paint for each
-//!   thing (`paint`) it makes its pipelines (`pipeline`), binds what its shader reads (`binding`) and draws from buffers
-//!   (`buffer`). A new kind takes its file, its shader, and a line for each in this one.
-//! - Ambient occlusion (`occlusion`) and fluoroscopy (`fluoroscopy`) draw some phases into textures of their own and
-//!   compute pictures from them.
-//! - [`DeviceHealth`] hears what goes wrong with a device, [`SurfaceError`] is what does not come to it;
-//!   [`device_descriptor`] says what is asked of one.
-//! - [`pick`] finds the triangle under a [`Ray`] of the camera, on the CPU.
-//!
-//! It runs on WebGPU, on WebGL2 (no storage buffers, no compute, no wide lines, no polygon mode) and on Vulkan, Metal
-//! and OpenGL, with the same shaders.
-//!
-//! Colours. The window library samples a texture as `Rgba8Unorm` and takes what it reads as gamma-encoded sRGB (the
-//! comment in its shader: "We expect 'normal' textures that are NOT sRGB-aware"), whatever the format of its own
-//! target. An sRGB texture would be decoded once too often, and a second view of it in another format does not exist
-//! on WebGL2. So the target is `Rgba8Unorm`, shaders light in linear light and encode to sRGB themselves, and a
-//! [`Colour`] appears on screen as it is written. Multisamples are therefore averaged as encoded values: edges and
-//! lines have the same visual weight dark on light as light on dark.
-
+#![doc = include_str!("../README.md")]
 #![allow(clippy::disallowed_methods, reason = "what it computes ends on the screen")]
 
 mod backdrop;

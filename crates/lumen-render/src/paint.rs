@@ -10,6 +10,7 @@ pub struct Paint {
     surface: Colour,
     inside: Colour,
     rim: Colour,
+    unknown: Colour,
     line: Colour,
     line_facing: Colour,
     is_flat: bool,
@@ -25,6 +26,8 @@ pub(super) struct PaintUniforms {
     inside: [f32; 4],
     /// Linear.
     rim: [f32; 4],
+    /// Linear.
+    unknown: [f32; 4],
     /// Gamma-encoded.
     line: [f32; 4],
     /// Gamma-encoded.
@@ -37,14 +40,14 @@ pub(super) struct PaintUniforms {
 impl Paint {
     /// The colours of a style.
     pub(super) fn of(style: &Style) -> Self {
-        let Style { surface, inside, rim, line, line_facing, .. } = *style;
-        Self { surface, inside, rim, line, line_facing, is_flat: false }
+        let Style { surface, inside, rim, unknown, line, line_facing, .. } = *style;
+        Self { surface, inside, rim, unknown: unknown.unwrap_or(surface), line, line_facing, is_flat: false }
     }
 
     /// The same with another colour of the wall's outside, or of the lines.
     #[must_use]
     pub(super) fn tinted(self, tint: Colour) -> Self {
-        Self { surface: tint, line: tint, line_facing: tint, ..self }
+        Self { surface: tint, unknown: tint, line: tint, line_facing: tint, ..self }
     }
 
     /// The same, each triangle with its own normal or not.
@@ -58,6 +61,7 @@ impl Paint {
             surface: linear(self.surface),
             inside: linear(self.inside),
             rim: linear(self.rim),
+            unknown: linear(self.unknown),
             line: encoded(self.line),
             line_facing: encoded(self.line_facing),
             flat: f32::from(u8::from(self.is_flat)),

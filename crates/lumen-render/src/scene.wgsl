@@ -28,6 +28,8 @@ struct Paint {
     surface: vec4<f32>,
     inside: vec4<f32>,
     rim: vec4<f32>,
+    // Of what has no number under a map.
+    unknown: vec4<f32>,
     // Gamma-encoded.
     line: vec4<f32>,
     line_facing: vec4<f32>,

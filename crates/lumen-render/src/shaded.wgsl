@@ -98,7 +98,7 @@ fn fragment_mapped(in: Fragment, @builtin(front_facing) front: bool) -> @locatio
     let even = map_colour((in.scalar - scene.map.x) * scene.map.y);
     let flat_or_even = decode(select(even, label_colour(in.label), scene.map.y < 0.0));
     let mapped = select(flat_or_even, in.tone, scene.map.y < 0.0 && scene.map.x > 0.5);
-    let colour = select(mapped, paint.surface.rgb, in.scalar > UNKNOWN);
+    let colour = select(mapped, paint.unknown.rgb, in.scalar > UNKNOWN);
     let facing = clamp(dot(normal, towards_eye), 0.0, 1.0);
     let shade = mix(0.55, 1.0, facing) * select(0.6, 1.0, front);
     return vec4(dither(encode(colour * shade), in.clip.xy), 1.0);

@@ -23,6 +23,8 @@ pub struct Style {
     pub line_facing: Colour,
     /// Shows scalars as colours, on the surfaces that have them.
     pub map: Option<ColourMap>,
+    /// What has no number under a map, where that has a colour of its own; else it has the surface's.
+    pub unknown: Option<Colour>,
     /// Whether these scalars are numbers of labels, from 0: each triangle has one of the palette's colours.
     pub labels: bool,
     /// Whether the light comes from the side, nearly along the surface that faces the eye: what stands out of it casts its
@@ -55,6 +57,9 @@ impl ClipPlane {
 }
 
 impl Style {
+    /// For [`unknown`](Self::unknown): a grey, which no map has.
+    pub const UNKNOWN: Colour = Colour::hex(0xA0_A0_A0);
+
     /// Dark on light.
     pub const LIGHT: Self = Self {
         background_top: Colour::hex(0xF7_F9_FB),
@@ -65,6 +70,7 @@ impl Style {
         line: Colour::hex(0x16_1D_24),
         line_facing: Colour::hex(0x56_61_6C),
         map: None,
+        unknown: None,
         labels: false,
         raking: false,
         occlusion: false,

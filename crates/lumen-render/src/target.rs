@@ -2,6 +2,13 @@
 //!
 //! A target of any kind is made here, has its size changed here, and is let go of when it is dropped. On another device
 //! it is made anew, like all that stands on one.
+//!
+//! Colours. The window library samples a texture as `Rgba8Unorm` and takes what it reads as gamma-encoded sRGB (the
+//! comment in its shader: "We expect 'normal' textures that are NOT sRGB-aware"), whatever the format of its own
+//! target. An sRGB texture would be decoded once too often, and a second view of it in another format does not exist
+//! on WebGL2. So the target is `Rgba8Unorm`, shaders light in linear light and encode to sRGB themselves, and a
+//! [`Colour`](super::Colour) appears on screen as it is written. Multisamples are therefore averaged as encoded values:
+//! edges and lines have the same visual weight dark on light as light on dark.
 
 use std::sync::OnceLock;
 

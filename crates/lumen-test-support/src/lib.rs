@@ -1,6 +1,4 @@
-//! What several tests share: surfaces with faults and tubes to make, the folder of test meshes, and measures that agree
-//! with none of the library's code by construction.
-
+#![doc = include_str!("../README.md")]
 #![allow(clippy::disallowed_methods, reason = "a test compares within bounds")]
 
 pub mod crossings;

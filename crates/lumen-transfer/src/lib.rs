@@ -1,10 +1,4 @@
-//! Messages between threads that share no memory: one line of JSON, and large arrays beside it as plain little-endian
-//! buffers.
-//!
-//! What a message is, its type alone says: whatever derives `Serialize` and `Deserialize` can cross, and a field with
-//! `#[serde(with = "crate::bulk")]` crosses as a buffer, in the line as the number of that. Sending costs one
-//! bulk copy out of an array, receiving one into a new one. Such a field means nothing outside a message: [`encode`] alone
-//! writes it, [`decode`] alone reads it.
+#![doc = include_str!("../README.md")]
 
 use std::cell::RefCell;
 use std::io;

@@ -1,24 +1,4 @@
-//! The guidewire trial: a wire is steered through a vessel surface, by hand or by autopilot, and what happens to it is
-//! measured.
-//!
-//! ```text
-//! surface --wall--> what the wire touches        surface --route--> where it should go
-//! wire + wall + input --rod, contact--> step by step --trial--> frame, log, summary
-//! ```
-//!
-//! Units are mm, N, s, t (tonne), MPa; forces in N, moments in N mm. The step is [`STEP`] of simulated time; input is
-//! latched by step, so a log replays to the same end, to the bit on one platform.
-//!
-//! # Where things are
-//!
-//! - The place: [`wall`], [`route`] (vessel tree and routes), [`course`] (both, and where the wire stands), `proposal`.
-//! - The wire: [`wire`], [`setup`], [`placement`].
-//! - A step: [`rod`], [`contact`], `descent` (which contacts press), [`body`] (rod and contacts through a step),
-//!   [`simulation`] (the guide that feeds and rolls), [`report`] (what a step tells of itself).
-//! - A trial: [`session`], [`autopilot`], [`hold`] (what a hand feels), `press` (what presses the wire to the wall), `missed`
-//!   (the fork that a failure names).
-//! - What comes of it: [`meter`], [`stopwatch`], [`felt`], [`log`], [`frame`], [`summary`], [`compare`].
-//! - [`audit`] checks walls and openness, and shares no code with the solver.
+#![doc = include_str!("../README.md")]
 //!
 //! # Words
 //!

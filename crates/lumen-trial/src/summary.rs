@@ -144,8 +144,8 @@ messages! {
             /// From the tip to the target, in mm.
             away: f64 [1],
         } => {
-            let count = grouped(count);
-            format!("the autopilot gave up after {count} retractions with the tip {away:.1} mm from the target")
+            let times = if *count == 1 { "1 retraction".to_owned() } else { format!("{} retractions", grouped(count)) };
+            format!("the autopilot gave up after {times} with the tip {away:.1} mm from the target")
         },
         /// It failed for a fork that was missed.
         "trial-end-missed" Missed {

@@ -72,11 +72,6 @@ pub(super) struct Known<'a> {
     pub(super) calibres: &'a [Calibre],
 }
 
-/// The radius of the circle of an area.
-pub(super) fn circle(area: f64) -> f64 {
-    (area / std::f64::consts::PI).sqrt()
-}
-
 /// Measures `subject`, which bounds `space`, at the stations. Nothing is known if the stations are of this surface.
 pub(super) async fn measure(
     subject: &Subject,

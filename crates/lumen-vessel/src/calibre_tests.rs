@@ -64,6 +64,45 @@ fn what_is_the_same_has_not_changed_and_has_the_area_of_its_circle() {
     }
 }
 
+/// The most that stations lie apart, in mm: each of the ends of what is measured is known to that.
+const APART: f64 = 1.0;
+
+#[test]
+fn coverage_is_the_length_away_from_open_ends_over_all_of_it() {
+    // Of an open tube a radius is left out at each end.
+    for (length, is_enough) in [(60.0f32, true), (40.0, true), (20.0, false), (12.0, false)] {
+        let found = certificate([&tube(96, 4 * length as u32, length, |_| 3.0); 3]);
+        let (coverage, length) = (found.coverage, f64::from(length));
+        assert_eq!((found.verdict, coverage.vessels, coverage.vessels_measured), (Verdict::Kept, 1, 1));
+        assert!((coverage.length_mm - length).abs() < 0.1, "{coverage:?}");
+        assert!((coverage.measured_mm - (length - 6.0)).abs() <= 2.0 * APART, "{coverage:?}");
+        assert!((coverage.measured_mm + coverage.ends_mm - coverage.length_mm).abs() < 1e-6, "{coverage:?}");
+        assert_eq!(coverage.is_enough(), is_enough, "{coverage:?}");
+    }
+}
+
+#[test]
+fn what_is_too_coarse_and_what_lies_at_a_fork_is_not_covered() {
+    // Wide up to 30 mm, then of less than an edge, which is 1 mm along it.
+    let radius = |z: f32| if z <= 30.0 { 3.0 } else { (3.0 - (z - 30.0)).max(0.4) };
+    let found = certificate([&tube(12, 60, 60.0, radius); 3]);
+    let coverage = found.coverage;
+    assert_eq!(found.verdict, Verdict::Kept, "where it is measured");
+    assert!(!coverage.is_enough() && (0.4..0.6).contains(&(coverage.measured_mm / 60.0)), "{coverage:?}");
+    assert!(coverage.thin_mm > 24.0, "{coverage:?}");
+    let (branch, station) = found.least_measured().unwrap();
+    assert!(branch.standings[station] == StationStatus::Thin && at(branch, station).z > 33.0);
+    // Three vessels that meet.
+    let (mesh, ends) = fork();
+    let found = certificate([&mesh; 3]);
+    let coverage = found.coverage;
+    let length: f64 = [0, 2, 3].map(|i| ends[i].distance(ends[1])).iter().sum();
+    assert!(coverage.length_mm >= length && coverage.length_mm < length + 3.0 * 4.0, "{coverage:?} of {length}");
+    // As wide as the trunk at least.
+    assert!(coverage.forks_mm > 8.0 && coverage.thin_mm == 0.0, "{coverage:?}");
+    assert_eq!((coverage.vessels, coverage.vessels_measured), (3, 3));
+}
+
 #[test]
 fn stair_steps_are_no_change_of_calibre() {
     let inside = |p: DVec3| in_capsule(p, DVec3::ZERO, DVec3::new(6.0, 4.0, 40.0), 3.0);

@@ -10,8 +10,8 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use glam::DVec3;
 
-use super::space::{Ball, Space};
-use lumen_mesh::parallel;
+use super::space::Space;
+use lumen_mesh::{Ball, parallel};
 
 /// Distance between points, as a part of the radius.
 const SPACING: f64 = 0.3;

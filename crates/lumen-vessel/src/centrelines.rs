@@ -10,11 +10,12 @@ use std::fmt::{Display, Write as _};
 
 use serde::{Deserialize, Serialize};
 
-use super::calibre::{Calibre, Subject, circle, measure};
+use super::calibre::{Calibre, Subject, measure};
 use super::certificate::{CalibreError, checked};
 use super::recentring::recentre;
 use super::stations::{Station, Stations};
 use super::tree::{Branch, Tree};
+use super::width::circle;
 use super::zones::{Zone, zones};
 use lumen_mesh::SurfaceIndex;
 use lumen_mesh::task::{Yielder, at_once};
@@ -57,6 +58,10 @@ pub struct Centrelines {
     pub calibres: Vec<Calibre>,
     /// What each station lies at.
     pub zones: Vec<Zone>,
+    /// How many bumps, corners and stumps were too short to be a branch ([`Tree::bumps`]).
+    pub bumps: usize,
+    /// How many open ends no branch leads to.
+    pub openings_without_branch: usize,
 }
 
 impl Centrelines {
@@ -74,7 +79,8 @@ impl Centrelines {
         let part = yielder.part(0.1..0.6);
         let tree = checked(Tree::with_topology_in_slices(mesh, topology, index, &part).await)?;
         let (stations, zones, calibres) = settled(subject, &tree, &yielder.part(0.6..1.0)).await;
-        Ok(Self { branches: tree.branches().to_vec(), stations, calibres, zones })
+        let (bumps, openings_without_branch) = (tree.bumps, tree.openings_without_branch());
+        Ok(Self { branches: tree.branches().to_vec(), stations, calibres, zones, bumps, openings_without_branch })
     }
 
     /// As the text of a file.

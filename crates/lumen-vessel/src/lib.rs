@@ -1,18 +1,4 @@
-//! The tree in a surface: branches between the places where vessels divide, their centrelines and calibres.
-//!
-//! ```text
-//! surface --space--> distance to the wall, open ends
-//!   --balls--> overlapping balls that fill the lumen, linked where a wire fits through
-//!   --paths--> the cheapest ways, and the tree they make
-//!   --centreline--> smooth centrelines with radii
-//!   --tree--> branches and their ends
-//!   --locating--> the branch of a point
-//!   --caps--> centrelines that reach the caps of closed ends, for what is measured along them
-//! ```
-//!
-//! What is found rests on the balls: two places are connected when overlapping balls lead from one to the other.
-//! A lumen that is pinched shut is not passed, however thin the wall between.
-
+#![doc = include_str!("../README.md")]
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
 
 mod balls;
@@ -39,6 +25,7 @@ mod tree;
 pub mod variation;
 #[cfg(test)]
 mod variation_tests;
+pub mod width;
 mod zones;
 
 pub use zones::Zone;
@@ -52,8 +39,8 @@ pub use centreline::{arcs, centreline, direction};
 pub use centrelines::{CentrelineFormat, Centrelines};
 pub use locating::Located;
 pub use locating::power;
+pub use lumen_mesh::Ball;
 pub use paths::NONE;
-pub use space::Ball;
 pub use stations::{Station, Stations};
 pub use tree::{Branch, BranchName, End, Tree};
 
@@ -91,6 +78,11 @@ pub const MESSAGES: &[&[lumen_message::Signature]] = &[
     phantom::SampleName::MESSAGES,
     summary::CalibreFinding::MESSAGES,
     summary::CalibreSummary::MESSAGES,
+    summary::CoverageText::MESSAGES,
     summary::PlaceText::MESSAGES,
+    summary::Unmeasured::MESSAGES,
+    summary::UnmeasuredParts::MESSAGES,
+    variation::ReferenceText::MESSAGES,
+    variation::UnevenText::MESSAGES,
     variation::VariationText::MESSAGES,
 ];

@@ -11,16 +11,20 @@ use std::collections::BinaryHeap;
 use glam::Vec3;
 
 use super::balls::Balls;
-use super::space::Ball;
+use lumen_mesh::Ball;
 
 /// No ball.
 pub const NONE: u32 = u32::MAX;
-/// A branch sticks out of the rest by this many of its end's radii, or it is a bump.
-const STICKS_OUT: f32 = 1.0;
-/// One with an open end, by these.
-const STICKS_OUT_OPEN: f32 = 0.3;
-/// And by this part of the radius that it comes out of.
+/// A closed branch is at least so many of its mean diameters long, out of the lumen that it leaves and with the ball at its
+/// tip; what is shorter is a bump, or the corner of a cap or rim. The mean is over the length: towards a corner the balls
+/// become ever smaller, and 2 diameters are more than any corner of 60 degrees or wider has.
+const DIAMETERS: f32 = 2.0;
+/// And it sticks out by this part of the radius that it comes out of.
 const STICKS_OUT_OF: f32 = 0.35;
+/// One that is half of a loop may be short: it sticks out by this many of its end's radii.
+const STICKS_OUT_LOOP: f32 = 1.0;
+/// One with an open end sticks out by this many of its end's radii.
+const STICKS_OUT_OPEN: f32 = 0.3;
 
 /// Linked balls as compressed rows.
 #[derive(Clone, Debug, Default)]
@@ -40,6 +44,15 @@ pub struct Ways {
     pub before: Vec<u32>,
     /// Length of the way in mm; infinite where there is none.
     pub length: Vec<f32>,
+}
+
+/// The tree of ways from a root.
+#[derive(Clone, Debug, Default)]
+pub struct Skeleton {
+    /// The first is through to the far end.
+    pub paths: Vec<Path>,
+    /// How many bumps, corners and stumps were too short to be a branch.
+    pub bumps: usize,
 }
 
 /// A way that is part of the tree, from where it leaves the rest to its end.
@@ -122,8 +135,8 @@ impl Graph {
         best.1
     }
 
-    /// The tree of ways from `root`, the first path through to the far end.
-    pub fn tree(&self, root: u32, is_open: impl Fn(&Ball) -> bool) -> Vec<Path> {
+    /// The tree of ways from `root`.
+    pub fn tree(&self, root: u32, is_open: impl Fn(&Ball) -> bool) -> Skeleton {
         let ways = self.ways(root);
         let mut order: Vec<u32> = (0..self.balls.len() as u32)
             .filter(|&ball| ways.length[ball as usize].is_finite() && !self.is_passing[ball as usize])
@@ -132,7 +145,9 @@ impl Graph {
         let count = self.balls.len();
         let along_x = AlongX::new(&self.balls);
         let mut covering = Covering { owner: vec![None; count], seen: vec![NONE; count], along_x };
-        let mut paths: Vec<Path> = Vec::new();
+        let mut found = Skeleton::default();
+        // Balls on the way to the tip of a bump: what else ends there is of the same.
+        let mut is_bump = vec![false; count];
         for &end in &order {
             if covering.owner[end as usize].is_some() {
                 continue;
@@ -150,35 +165,67 @@ impl Graph {
             }
             free.reverse();
             match met {
-                None if paths.is_empty() => {
+                None if found.paths.is_empty() => {
                     covering.add(self, 0, &free);
-                    paths.push(Path { parent: 0, joint: 0, balls: free });
+                    found.paths.push(Path { parent: 0, joint: 0, balls: free });
                 }
                 None => {}
                 Some((parent, _)) => {
                     let first = self.balls[free[0] as usize];
-                    let joint = self.nearest_of(&paths[parent].balls, &first);
-                    let trunk = self.balls[paths[parent].balls[joint] as usize];
+                    let joint = self.nearest_of(&found.paths[parent].balls, &first);
+                    let trunk = self.balls[found.paths[parent].balls[joint] as usize];
                     let out = ways.length[end as usize] - ways.length[free[0] as usize]
                         + (first.centre.distance(trunk.centre) - trunk.radius).max(0.0);
                     let tip = self.balls[end as usize];
-                    let least = if is_open(&tip) {
-                        STICKS_OUT_OPEN * tip.radius
-                    } else {
-                        (STICKS_OUT * tip.radius).max(STICKS_OUT_OF * trunk.radius)
+                    let is_long = || out + tip.radius >= 2.0 * DIAMETERS * self.mean_radius(&free);
+                    let is_loop = || {
+                        out >= STICKS_OUT_LOOP * tip.radius && self.closes_loop(&ways, &covering.owner, &free, &trunk)
                     };
-                    if out >= least {
-                        covering.add(self, paths.len(), &free);
-                        paths.push(Path { parent, joint, balls: free });
+                    let is_branch = if is_open(&tip) {
+                        out >= STICKS_OUT_OPEN * tip.radius
+                    } else {
+                        out >= STICKS_OUT_OF * trunk.radius && (is_long() || is_loop())
+                    };
+                    if is_branch {
+                        covering.add(self, found.paths.len(), &free);
+                        found.paths.push(Path { parent, joint, balls: free });
+                    } else {
+                        found.bumps += usize::from(free.iter().all(|&ball| !is_bump[ball as usize]));
+                        free.iter().for_each(|&ball| is_bump[ball as usize] = true);
                     }
                 }
             }
         }
-        paths
+        found
     }
 }
 
 impl Graph {
+    /// Whether one of the balls, which come out of `trunk`, is linked with one whose own way is from elsewhere.
+    fn closes_loop(&self, ways: &Ways, owner: &[Option<(usize, usize)>], balls: &[u32], trunk: &Ball) -> bool {
+        let comes_from_elsewhere = |&(mut at, ..): &(u32, f32, f64)| {
+            while owner[at as usize].is_none() && ways.before[at as usize] != NONE {
+                at = ways.before[at as usize];
+            }
+            let from = self.balls[at as usize];
+            from.centre.distance(trunk.centre) > from.radius + trunk.radius
+        };
+        balls.iter().any(|&ball| self.links(ball).iter().any(comes_from_elsewhere))
+    }
+
+    /// The mean radius along balls, by length.
+    fn mean_radius(&self, balls: &[u32]) -> f32 {
+        let ball = |number: u32| self.balls[number as usize];
+        let (mut length, mut sum) = (0.0, 0.0);
+        for pair in balls.windows(2) {
+            let [from, to] = [ball(pair[0]), ball(pair[1])];
+            let step = from.centre.distance(to.centre);
+            length += step;
+            sum += step * (from.radius + to.radius) / 2.0;
+        }
+        if length > 0.0 { sum / length } else { ball(balls[0]).radius }
+    }
+
     /// The place in a path whose middle is nearest to a ball.
     fn nearest_of(&self, path: &[u32], ball: &Ball) -> usize {
         let distance = |&other: &u32| self.balls[other as usize].centre.distance(ball.centre);

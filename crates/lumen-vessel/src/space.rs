@@ -9,7 +9,8 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use lumen_mesh::{Nearest, SurfaceIndex, Topology, TriMesh, boundary_loops};
+use super::width::RAYS;
+use lumen_mesh::{Ball, Nearest, SurfaceIndex, Topology, TriMesh, boundary_loops};
 
 /// Most moves to the middle. From the wall of a round vessel, six or seven are enough.
 const MOVES: usize = 16;
@@ -17,33 +18,6 @@ const MOVES: usize = 16;
 const GAIN: f32 = 2e-3;
 /// Walls face each other when the cosine between the ways from them is less: 25 degrees from opposite.
 const FACING: f32 = -0.906;
-/// Directions without relation to any axis or to each other.
-const RAYS: [[f32; 3]; 3] =
-    [[0.534_522, 0.267_261, 0.801_784], [-0.742_781, 0.557_086, 0.371_391], [0.196_116, -0.784_465, -0.588_348]];
-
-/// A ball inside that touches the wall, or nearly does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ball {
-    /// In mm.
-    pub centre: Vec3,
-    /// In mm.
-    pub radius: f32,
-}
-
-impl Ball {
-    /// The radius of the circle in which two balls meet, or of the smaller one if its middle is inside the other: what
-    /// fits through between them. 0 if they do not overlap.
-    pub fn passage(&self, other: &Ball) -> f32 {
-        let d = f64::from(self.centre.distance(other.centre));
-        let (a, b) = (f64::from(self.radius), f64::from(other.radius));
-        if d >= a + b {
-            return 0.0;
-        }
-        // Where the plane of the circle lies, from the middle of the first.
-        let to = (d * d + a * a - b * b) / (2.0 * d);
-        if d == 0.0 || to <= 0.0 || to >= d { a.min(b) as f32 } else { (a * a - to * to).max(0.0).sqrt() as f32 }
-    }
-}
 
 /// An open end: its middle, where out is, and its size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,10 +73,7 @@ impl Space {
 
     /// Whether the surface and the caps over its open ends go around `p`, as most of three rays have it.
     pub fn is_inside(&self, p: Vec3) -> bool {
-        let around = |ray: &&[f32; 3]| {
-            let ray = Vec3::from(**ray);
-            self.index.winding(p, ray) + self.caps.winding(p, ray) > 0
-        };
+        let around = |&&ray: &&Vec3| self.index.winding(p, ray) + self.caps.winding(p, ray) > 0;
         RAYS.iter().filter(around).count() >= 2
     }
 

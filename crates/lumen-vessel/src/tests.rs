@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::*;
 use lumen_mesh::TriMesh;
-use lumen_mesh::shapes::{fork, icosphere, square, tube};
+use lumen_mesh::shapes::{fork, icosphere, in_capsule, isosurface, square, tube};
 
 fn near(found: f64, expected: f64, part: f64) {
     assert!((found - expected).abs() <= part * expected.abs(), "{found}, not {expected} to {part}");
@@ -46,4 +46,67 @@ fn the_tree_does_not_depend_on_threads() {
     let (mesh, _) = fork();
     let of = |threads| lumen_mesh::parallel::with_threads(threads, || Tree::new(&mesh).unwrap().branches().to_vec());
     assert_eq!(of(1), of(3));
+}
+
+/// The surface around some vessels: the ends of each and its radius.
+fn vessels(all: &[(DVec3, DVec3, f64)]) -> TriMesh {
+    let far = DVec3::new(26.0, 16.0, 6.0);
+    isosurface(-far, far, 0.4, |p| {
+        all.iter().map(|&(start, end, radius)| in_capsule(p, start, end, radius)).fold(f64::NEG_INFINITY, f64::max)
+    })
+}
+
+#[test]
+fn a_closed_branch_is_two_of_its_diameters_long() {
+    let trunk = (DVec3::new(-20.0, 0.0, 0.0), DVec3::new(20.0, 0.0, 0.0), 3.0);
+    // A side branch of 2 mm across, so long out of the trunk with the cap at its tip.
+    for (out, branches, bumps) in [(2.0, 1, 1), (3.0, 1, 1), (5.0, 3, 0), (9.0, 3, 0)] {
+        let side = (DVec3::ZERO, DVec3::new(0.0, 3.0 + out - 1.0, 0.0), 1.0);
+        let tree = Tree::new(&vessels(&[trunk, side])).unwrap();
+        assert_eq!((tree.branches().len(), tree.bumps), (branches, bumps), "{out} mm out");
+    }
+}
+
+#[test]
+fn the_corners_of_flat_caps_are_no_branches() {
+    let box_of = DVec3::new(20.0, 4.0, 4.0);
+    let mesh = isosurface(-box_of * 1.2, box_of * 1.2, 0.4, |p| (box_of - p.abs()).min_element());
+    assert_eq!(Tree::new(&mesh).unwrap().branches().len(), 1);
+}
+
+#[test]
+fn a_short_bridge_between_two_vessels_is_a_branch() {
+    let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let ring = [
+        (corner(-20.0, -4.0), corner(20.0, -4.0), 1.5),
+        (corner(-20.0, 4.0), corner(20.0, 4.0), 1.5),
+        (corner(-20.0, -4.0), corner(-20.0, 4.0), 1.5),
+    ];
+    let has_bridge = |mesh: &TriMesh| {
+        let tree = Tree::new(mesh).unwrap();
+        let is_on_it = |place: &Place| place.at.y.abs() < 1.0 && place.at.x.abs() < 1.0;
+        tree.branches().iter().any(|branch| branch.points.iter().any(is_on_it))
+    };
+    assert!(!has_bridge(&vessels(&ring)));
+    // 5 mm long between the two lumens and 2 mm across: each half by itself is too short.
+    let bridge = (corner(0.0, -4.0), corner(0.0, 4.0), 1.0);
+    assert!(has_bridge(&vessels(&[&ring[..], &[bridge]].concat())));
+}
+
+#[test]
+fn open_ends_without_a_branch_are_counted() {
+    let open = Tree::new(&tube(48, 80, 40.0, |_| 2.0)).unwrap();
+    assert_eq!((open.branches().len(), open.openings_without_branch()), (1, 0));
+    assert_eq!(open.branches()[0].ends, [End::Open; 2]);
+    // A window in the wall of a closed vessel: no branch leads there.
+    let trunk = (DVec3::new(-20.0, 0.0, 0.0), DVec3::new(20.0, 0.0, 0.0), 3.0);
+    let mut mesh = vessels(&[trunk]);
+    let is_window = |mesh: &TriMesh, t: usize| {
+        let middle = mesh.corners(t).iter().sum::<Vec3>() / 3.0;
+        middle.y > 2.0 && middle.x.abs() < 1.5
+    };
+    let kept = (0..mesh.triangles.len()).filter(|&t| !is_window(&mesh, t)).map(|t| mesh.triangles[t]).collect();
+    mesh.triangles = kept;
+    let tree = Tree::new(&mesh).unwrap();
+    assert_eq!((tree.branches().len(), tree.openings_without_branch()), (1, 1));
 }

@@ -9,10 +9,10 @@ use super::TreeError;
 use super::balls::fill;
 use super::centreline::{Place, arcs, centreline};
 use super::locating::{Located, Segments};
-use super::paths::{Graph, Path};
-use super::space::{Ball, Space};
+use super::paths::{Graph, Path, Skeleton};
+use super::space::Space;
 use lumen_mesh::task::{Yielder, at_once};
-use lumen_mesh::{SurfaceIndex, Topology, TriMesh, volume};
+use lumen_mesh::{Ball, SurfaceIndex, Topology, TriMesh, volume};
 use lumen_message::messages;
 
 /// A group of balls with less than this part of the largest group's volume is a speck, and has no branches.
@@ -96,6 +96,7 @@ impl Branch {
 struct Group {
     number: u32,
     paths: Vec<Path>,
+    bumps: usize,
     /// The centrelines of the first paths, and the place where each leaves its parent.
     lines: Vec<Vec<Place>>,
     joints: Vec<Option<usize>>,
@@ -111,6 +112,8 @@ pub struct Tree {
     /// The balls, and which of them touch.
     pub graph: Graph,
     branches: Vec<Branch>,
+    /// How many bumps, corners and stumps were too short to be a branch.
+    pub bumps: usize,
     /// Balls of each tree's group.
     pub groups: Vec<u32>,
     segments: Segments,
@@ -176,7 +179,7 @@ impl Tree {
             return Err(if is_turned { TreeError::InsideOut } else { TreeError::NoInside { triangles } });
         }
         let (branches, groups, segments) = (Vec::new(), Vec::new(), Segments::default());
-        let mut tree = Self { space, graph, branches, groups, segments };
+        let mut tree = Self { space, graph, branches, bumps: 0, groups, segments };
         for number in tree.largest_groups() {
             yielder.rest(0.7).await;
             let Some(mut group) = tree.group(number) else { continue };
@@ -196,6 +199,19 @@ impl Tree {
         &self.branches
     }
 
+    /// How many open ends no branch leads to.
+    pub fn openings_without_branch(&self) -> usize {
+        let ends = |branch: &Branch| {
+            let places = [branch.points.first().copied(), branch.points.last().copied()];
+            places.into_iter().zip(branch.ends).filter(|(_, end)| *end == End::Open).filter_map(|(place, _)| place)
+        };
+        let mut is_reached = vec![false; self.space.openings.len()];
+        for opening in self.branches.iter().flat_map(ends).filter_map(|place| self.opening_at(place)) {
+            is_reached[opening] = true;
+        }
+        is_reached.iter().filter(|&&is_reached| !is_reached).count()
+    }
+
     /// Groups of linked balls, by what they measure along, longest first.
     fn largest_groups(&self) -> Vec<u32> {
         let mut sizes: Vec<(f64, u32)> = (0..self.graph.balls.len() as u32).map(|ball| (0.0, ball)).collect();
@@ -213,9 +229,9 @@ impl Tree {
     /// The paths of a group of balls, none of whose centrelines is there yet.
     fn group(&self, group: u32) -> Option<Group> {
         let root = self.root(group)?;
-        let paths = self.graph.tree(root, |ball| self.is_open(ball));
+        let Skeleton { paths, bumps } = self.graph.tree(root, |ball| self.is_open(ball));
         let cuts = vec![Vec::new(); paths.len()];
-        Some(Group { number: group, paths, lines: Vec::new(), cuts, joints: Vec::new() })
+        Some(Group { number: group, paths, bumps, lines: Vec::new(), cuts, joints: Vec::new() })
     }
 
     /// Adds the centreline of the group's next path, and where it leaves another; whether that was the last.
@@ -233,6 +249,7 @@ impl Tree {
     fn add_branches(&mut self, group: Group) {
         let tree = self.groups.len() as u32;
         self.groups.push(group.number);
+        self.bumps += group.bumps;
         let Group { paths, lines, mut cuts, joints, .. } = group;
         // The branch of each path that ends at a cut or after it.
         let mut pieces: Vec<Vec<(usize, u32)>> = Vec::new();
@@ -275,7 +292,7 @@ impl Tree {
         let radius = |ball: u32| self.graph.balls[ball as usize].radius;
         let largest = members.filter(|&ball| !self.graph.is_passing[ball as usize]);
         let largest = largest.reduce(|best, ball| if radius(ball) > radius(best) { ball } else { best })?;
-        let paths = self.graph.tree(largest, |ball| self.is_open(ball));
+        let Skeleton { paths, .. } = self.graph.tree(largest, |ball| self.is_open(ball));
         let ends = paths.iter().filter_map(|path| path.balls.last().copied());
         ends.reduce(|best, end| if radius(end) > radius(best) { end } else { best })
     }

@@ -18,8 +18,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::calibre::circle;
 use super::on_surface::{OnSurface, StationStatus};
+use super::width::circle;
 use lumen_message::messages;
 
 /// The least degree by diameter of a stretch: below that a narrowing is called minimal (CAD-RADS 2.0, 2022).
@@ -62,6 +62,9 @@ pub struct Variation {
     pub diameter_mm: f64,
     /// The reference there, in mm.
     pub reference_mm: f64,
+    /// Where the reference comes from: the middle diameter before the stretch and behind it; null where a side is too short.
+    #[serde(default)]
+    pub sides: [Option<Side>; 2],
     /// Arc length at the beginning and end, from the first station of the branch, in mm.
     pub from_mm: f64,
     /// See `from_mm`.
@@ -74,6 +77,15 @@ pub struct Variation {
     pub at_mm: [f32; 3],
 }
 
+/// What a vessel has on one side of a stretch.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Side {
+    /// Arc length in its middle, in mm.
+    pub abscissa_mm: f64,
+    /// The middle diameter, in mm.
+    pub diameter_mm: f64,
+}
+
 impl Variation {
     /// As "70 % narrower over 12.3 mm, at 34.5 mm".
     pub fn text(&self) -> VariationText {
@@ -81,6 +93,16 @@ impl Variation {
         match self.kind {
             Kind::Narrower => VariationText::NarrowerOver { percent, length, at },
             Kind::Wider => VariationText::WiderOver { percent, length, at },
+        }
+    }
+
+    /// As "1.80 of 6.00 mm, by the diameters at 18.0 and 51.0 mm".
+    pub fn reference(&self) -> ReferenceText {
+        let (diameter, reference) = (self.diameter_mm, self.reference_mm);
+        match self.sides.map(|side| side.map(|side| side.abscissa_mm)) {
+            [Some(from), Some(to)] => ReferenceText::Between { diameter, reference, from, to },
+            [Some(at), None] | [None, Some(at)] => ReferenceText::At { diameter, reference, at },
+            [None, None] => ReferenceText::Alone { diameter, reference },
         }
     }
 
@@ -127,6 +149,63 @@ messages! {
             at: f64 [1],
         } => "{percent:.0} % wider over {length:.1} mm, at {at:.1} mm",
     }
+}
+
+messages! {
+    /// A diameter, beside its reference and where that comes from.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum ReferenceText {
+        /// From both sides.
+        "vessels-reference-between" Between {
+            /// The diameter, in mm.
+            diameter: f64 [2],
+            /// The reference, in mm.
+            reference: f64 [2],
+            /// Arc length before, in mm.
+            from: f64 [1],
+            /// Arc length behind, in mm.
+            to: f64 [1],
+        } => "{diameter:.2} of {reference:.2} mm, by the diameters at {from:.1} and {to:.1} mm",
+        /// From one side.
+        "vessels-reference-at" At {
+            /// The diameter, in mm.
+            diameter: f64 [2],
+            /// The reference, in mm.
+            reference: f64 [2],
+            /// Arc length, in mm.
+            at: f64 [1],
+        } => "{diameter:.2} of {reference:.2} mm, by the diameter at {at:.1} mm",
+        /// From the whole line.
+        "vessels-reference" Alone {
+            /// The diameter, in mm.
+            diameter: f64 [2],
+            /// The reference, in mm.
+            reference: f64 [2],
+        } => "{diameter:.2} of {reference:.2} mm",
+    }
+}
+
+messages! {
+    /// Stretches of a branch as tables show them.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum UnevenText {
+        /// One that is narrower, and one that is wider.
+        "vessels-uneven-both" Both {
+            /// The narrower one.
+            narrower: VariationText,
+            /// The wider one.
+            wider: VariationText,
+        } => "{narrower}; {wider}",
+    } or {
+        /// One of them.
+        One(VariationText),
+    }
+}
+
+/// The greatest degree of that kind among these.
+pub(super) fn greatest(found: &[Variation], kind: Kind) -> Option<&Variation> {
+    let of_kind = found.iter().filter(|one| one.kind == kind);
+    of_kind.reduce(|most, next| if next.degree_percent > most.degree_percent { next } else { most })
 }
 
 /// A branch at its stations, all lists of one length.
@@ -244,10 +323,11 @@ fn median(mut values: Vec<f64>) -> f64 {
 /// is on either side.
 fn stretch(all: &[Sample], usual: &[f64], kind: Kind, peak: usize) -> Option<Variation> {
     let (mut first, mut last) = ends(all, kind, peak, |i| usual[i]);
-    let mut reference = [usual[peak], 0.0];
+    let (mut reference, mut beside) = ([usual[peak], 0.0], [None; 2]);
     // The reference says where it ends, and the ends where the reference is.
     for _ in 0..2 {
-        reference = interpolated(all, first, last, peak).unwrap_or([usual[peak], 0.0]);
+        beside = sides(all, first, last);
+        reference = interpolated(beside, all[peak].at).unwrap_or([usual[peak], 0.0]);
         (first, last) = ends(all, kind, peak, |i| reference[0] + reference[1] * (all[i].at - all[peak].at));
     }
     let [expected, _] = reference;
@@ -274,6 +354,7 @@ fn stretch(all: &[Sample], usual: &[f64], kind: Kind, peak: usize) -> Option<Var
         reduced_degree_percent: None,
         diameter_mm: diameter,
         reference_mm: expected,
+        sides: beside,
         from_mm,
         to_mm,
         length_mm: to_mm - from_mm,
@@ -302,24 +383,29 @@ fn ends(all: &[Sample], kind: Kind, peak: usize, expected: impl Fn(usize) -> f64
     (first, last)
 }
 
-/// Height at `peak` and slope of the line from what the vessel has before `first` to what it has behind `last`; of one side
-/// where there is but one, `None` where there is none.
-fn interpolated(all: &[Sample], first: usize, last: usize, peak: usize) -> Option<[f64; 2]> {
+/// What the vessel has before `first` and behind `last`; `None` of a side that is too short.
+fn sides(all: &[Sample], first: usize, last: usize) -> [Option<Side>; 2] {
     let side = |samples: &[Sample], end: f64| {
         let wide = median(samples.iter().map(|sample| sample.diameter).collect());
         let is_beside = |sample: &&Sample| (SIDE.0 * wide..=SIDE.1 * wide).contains(&(sample.at - end).abs());
         let beside: Vec<&Sample> = samples.iter().filter(is_beside).collect();
-        let middle = beside.iter().map(|sample| sample.at).sum::<f64>() / beside.len() as f64;
-        (beside.len() >= FEWEST).then(|| (middle, median(beside.iter().map(|sample| sample.diameter).collect())))
+        let abscissa_mm = beside.iter().map(|sample| sample.at).sum::<f64>() / beside.len() as f64;
+        let diameter_mm = median(beside.iter().map(|sample| sample.diameter).collect());
+        (beside.len() >= FEWEST).then_some(Side { abscissa_mm, diameter_mm })
     };
-    let (before, after) = (side(&all[..first], all[first].at), side(&all[last + 1..], all[last].at));
-    match (before, after) {
-        (Some((a, one)), Some((b, other))) => {
-            let slope = (other - one) / (b - a);
-            Some([one + slope * (all[peak].at - a), slope])
+    [side(&all[..first], all[first].at), side(&all[last + 1..], all[last].at)]
+}
+
+/// Height at `at` and slope of the line from one side to the other; of one side where there is but one, `None` where there is
+/// none.
+fn interpolated(sides: [Option<Side>; 2], at: f64) -> Option<[f64; 2]> {
+    match sides {
+        [Some(before), Some(after)] => {
+            let slope = (after.diameter_mm - before.diameter_mm) / (after.abscissa_mm - before.abscissa_mm);
+            Some([before.diameter_mm + slope * (at - before.abscissa_mm), slope])
         }
-        (Some((_, one)), None) | (None, Some((_, one))) => Some([one, 0.0]),
-        (None, None) => None,
+        [Some(one), None] | [None, Some(one)] => Some([one.diameter_mm, 0.0]),
+        [None, None] => None,
     }
 }
 

@@ -98,3 +98,30 @@ fn cones_and_rough_walls_have_none() {
     }
     assert_eq!(found(&rough), []);
 }
+
+#[test]
+fn a_coarctation_is_told_by_its_narrowing_first() {
+    // An aorta of 20 mm that a coarctation narrows by 45 % at 70 mm, and that is half as wide again at 170 mm.
+    let bell = |z: f64, at: f64, wide: f64| libm::exp(-(z - at) * (z - at) / (2.0 * wide * wide));
+    let radius = |z: f32| 10.0 * (1.0 - 0.45 * bell(f64::from(z), 70.0, 10.0) + 0.5 * bell(f64::from(z), 170.0, 10.0));
+    let branches = branches(&tube(64, 480, 240.0, |z| radius(z) as f32));
+    let [branch] = &branches[..] else { panic!("{} branches", branches.len()) };
+    let [Some(narrower), Some(wider)] = branch.uneven() else { panic!("{:?}", branch.variations) };
+    assert_eq!((narrower.kind, wider.kind), (Kind::Narrower, Kind::Wider));
+    assert!((narrower.degree_percent - 45.0).abs() <= 2.0, "{narrower:?}");
+    assert!((wider.degree_percent - 50.0).abs() <= 3.5, "{wider:?}");
+    assert!(narrower.degree_percent < wider.degree_percent, "the greater degree is not told first");
+    // Where the bell is a twentieth; a radius is a mean over as long as the vessel is wide, which draws that out a little.
+    let length = 2.0 * 10.0 * (2.0 * libm::log(0.45 / 0.05)).sqrt();
+    assert!((narrower.length_mm - length).abs() <= 2.5, "{narrower:?} is not {length} mm long");
+    let [Some(before), Some(after)] = narrower.sides else { panic!("{narrower:?}") };
+    assert!(before.abscissa_mm < narrower.from_mm && after.abscissa_mm > narrower.to_mm, "{narrower:?}");
+    for side in [before, after] {
+        assert!((side.diameter_mm - 20.0).abs() <= 0.1, "{side:?}");
+    }
+    let text = branch.uneven_text().unwrap().to_string();
+    let (first, second) = text.split_once("; ").unwrap();
+    assert!(first.contains("% narrower over") && second.contains("% wider over"), "{text}");
+    let reference = narrower.reference().to_string();
+    assert!(reference.starts_with("11.2") && reference.contains(" of 19.99 mm"), "{reference}");
+}

@@ -1,13 +1,4 @@
-//! Scans and masks: a grid of numbers in the patient, and the surface of what lies inside on it.
-//!
-//! - `geometry`: where the points lie, in millimetres, with spacing, origin and directions; `samples`: their numbers in
-//!   the type that they are stored in; `grid`: both.
-//! - `survey`: range, histogram and labels; `selection`: what of it is the vessel, and presets for CT.
-//! - `marching_cubes` with `cube_cases` cut anything that can say what lies inside, the phantoms' vessels too; `surface`
-//!   cuts a selection; `reduced` makes the smaller volume that a preview is cut from; `slice` is a picture, in a `window` of values.
-//!
-//! What takes long rests now and then ([`task`](lumen_mesh::task)). Files are read by `io`.
-
+#![doc = include_str!("../README.md")]
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
 
 mod cube_cases;

@@ -5,7 +5,7 @@
 
 pub(super) mod action;
 
-use egui::{Button, Color32, Label, Rect, ScrollArea, Shape, Stroke, Ui};
+use egui::{Button, Color32, Rect, ScrollArea, Shape, Stroke, Ui};
 use glam::Vec3;
 
 pub use self::action::Action;
@@ -14,6 +14,7 @@ use crate::app::document::Document;
 use crate::app::mode::{Acting, Beside, Entry, Group, Layer, Mode, Now, Panel, Place};
 use crate::app::places::seen;
 use crate::app::platform::Platform;
+use crate::app::row::wrapped;
 use crate::app::state::State;
 use crate::app::theme;
 use crate::language::{Key, decimal, inner, tell};
@@ -153,7 +154,7 @@ impl Collapses {
         });
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             for line in self.words(state) {
-                ui.add(Label::new(line).wrap());
+                wrapped(ui, &line, |text| text);
             }
         });
     }

@@ -6,6 +6,7 @@ use super::{Action, Given, Step};
 use crate::app::action::Action as Ask;
 use crate::app::assist::heading;
 use crate::app::icon::{self, Icon};
+use crate::app::row::wrapped;
 use crate::say;
 
 /// No line is longer, in points: for the eye.
@@ -26,7 +27,6 @@ pub(super) fn show(ui: &mut Ui, given: &Given, has_links: bool, asked: &mut Vec<
     };
     let count = given.lesson.steps.len();
     let place = say!("lesson-place", title = &given.lesson.title, step = given.step + 1, count = count);
-    let place = RichText::new(place).weak();
     let has_room = ui.available_width() > ROOMY;
     let step = &given.lesson.steps[given.step];
     ui.horizontal(|ui| {
@@ -49,14 +49,14 @@ pub(super) fn show(ui: &mut Ui, given: &Given, has_links: bool, asked: &mut Vec<
             }
             if has_room {
                 ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                    ui.add(Label::new(place.clone()).truncate());
+                    ui.add(Label::new(RichText::new(&place).weak()).truncate());
                 });
             }
         });
     });
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         if !has_room {
-            wrapped(ui, place);
+            wrapped(ui, &place, RichText::weak);
         }
         match &step.question {
             // Side by side where there is room: a question below the fold is not asked.
@@ -75,22 +75,18 @@ pub(super) fn show(ui: &mut Ui, given: &Given, has_links: bool, asked: &mut Vec<
     });
 }
 
-fn wrapped(ui: &mut Ui, text: RichText) {
-    ui.add(Label::new(text).wrap());
-}
-
 fn told(ui: &mut Ui, step: &Step) {
     heading(ui, &step.title);
-    wrapped(ui, RichText::new(&step.text));
+    wrapped(ui, &step.text, |text| text);
     if !step.look.is_empty() {
-        wrapped(ui, RichText::new(say!("lesson-look", what = &step.look)).strong());
+        wrapped(ui, &say!("lesson-look", what = &step.look), RichText::strong);
     }
 }
 
 fn asks(ui: &mut Ui, (question, answer): &(String, String), is_answered: bool, ask: &mut impl FnMut(bool, Action)) {
-    wrapped(ui, RichText::new(question).strong());
+    wrapped(ui, question, RichText::strong);
     if is_answered {
-        wrapped(ui, RichText::new(answer));
+        wrapped(ui, answer, |text| text);
     } else {
         let show = ui.button(say!("lesson-show-answer")).on_hover_text(say!("lesson-show-answer-help"));
         ask(show.clicked(), Action::Answer);

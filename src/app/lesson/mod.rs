@@ -30,7 +30,7 @@ use crate::say;
 pub const ENDING: &str = "lesson";
 
 /// The lessons that come with Lumen: name in a link, title, and the text of its file.
-pub(super) const LESSONS: [(&str, Key, Key); 6] = [
+pub const LESSONS: [(&str, Key, Key); 6] = [
     ("stair-steps", Key("lesson-stair-steps"), Key("lesson-stair-steps-text")),
     ("pass-band", Key("lesson-pass-band"), Key("lesson-pass-band-text")),
     ("windows", Key("lesson-windows"), Key("lesson-windows-text")),

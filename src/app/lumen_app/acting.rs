@@ -124,6 +124,7 @@ impl LumenApp {
                 state.next_unit = if let Action::OpenIn(unit) = action { Some(unit) } else { None };
                 self.platform.choose_file(ctx);
             }
+            Action::Uninvite => self.invites = false,
             Action::ReadIn(unit) => state.set_unit(Some(unit), self.platform.link()),
             Action::Sample(sample) => {
                 self.leave_scan();

@@ -8,6 +8,7 @@ use crate::app::sharing::{self, Sharing};
 use crate::app::state::{Effect, State};
 use crate::app::{keys, large, lesson, recovery, verdict};
 use crate::language::tell;
+use crate::pipeline::verdict::Verdict;
 use crate::say;
 
 impl LumenApp {
@@ -39,7 +40,11 @@ impl LumenApp {
                         self.state.tell(&warning);
                     }
                 }
-                PlatformEvent::Linked { fragment } => self.follow_link(&fragment, ctx),
+                PlatformEvent::Linked { fragment } => {
+                    // Who follows a link has something to look at.
+                    self.invites = false;
+                    self.follow_link(&fragment, ctx);
+                }
                 PlatformEvent::Restored(file) => {
                     self.recovery.restored(file, &mut self.state, &mut *self.platform);
                 }
@@ -84,6 +89,7 @@ impl LumenApp {
         match effect {
             Some(Effect::Opened) => {
                 self.look_next = true;
+                self.invites &= self.state.shows_sample();
                 self.leave_surface(ctx);
                 self.views.options.leave_surface();
             }
@@ -115,7 +121,7 @@ impl LumenApp {
     /// Says that a file was saved, and what of the result is to be looked at.
     pub(super) fn tell_saved(&mut self, message: &str) {
         let verdict = self.state.document.as_ref().map(|document| verdict::verdict(&self.state, document));
-        match verdict.filter(|verdict| verdict.is_safe == Some(false)) {
+        match verdict.filter(Verdict::has_reservations) {
             Some(verdict) => self.state.saved(&format!("{message} {}", verdict.in_short(tell))),
             None => self.state.saved(message),
         }

@@ -4,11 +4,11 @@ use egui::{CentralPanel, Frame, Margin, Panel, Ui};
 
 use super::LumenApp;
 use crate::app::action::Action;
-use crate::app::drawer::Stops;
+use crate::app::drawer::Content;
 use crate::app::mode::{Beside, Mode, Now, Place};
 use crate::app::state::State;
 use crate::app::views::{Clicked, Over, Subject};
-use crate::app::{bar, collapses, panel, row, theme, verdict};
+use crate::app::{bar, collapses, invitation, panel, row, theme, verdict};
 use crate::pipeline::settings::Settings;
 
 impl LumenApp {
@@ -16,7 +16,7 @@ impl LumenApp {
     pub(super) fn controls(&mut self, ui: &mut Ui) {
         let bar = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 6));
         let mut asked = Vec::new();
-        let (mode, is_narrow) = (self.mode(), self.is_narrow);
+        let (mode, is_narrow, is_stacked) = (self.mode(), self.is_narrow, self.is_stacked);
         let (entries, keeps_surface) = (self.entries(mode), self.recovery.keeps(&mut *self.platform));
         Panel::top("top").frame(bar).exact_size(theme::row(ui.ctx(), 36.0) + 12.0).show(ui, |ui| {
             let shown = bar::Shown {
@@ -44,7 +44,7 @@ impl LumenApp {
                 bar::status(ui, &self.state, &self.views, notice, self.record.progress(), is_narrow, &mut asked);
             }
         });
-        if let Some(panel) = self.panels.of_mut(mode).filter(|_| is_narrow)
+        if let Some(panel) = self.panels.of_mut(mode).filter(|_| is_stacked)
             && let Some(height) = panel.thumb_height()
         {
             // Below all else: where the thumbs are of whoever holds a phone.
@@ -63,7 +63,7 @@ impl LumenApp {
         if mode == Mode::Method && takes_panel.is_none() {
             let strip = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 4));
             Panel::top("verdict").frame(strip).exact_size(verdict::height(ui.ctx(), is_narrow) + 8.0).show(ui, |ui| {
-                verdict::show(ui, &self.state, is_narrow, &mut asked);
+                verdict::show(ui, &self.state, self.views.options, is_narrow, &mut asked);
             });
         }
         if mode == Mode::Method {
@@ -119,44 +119,102 @@ impl LumenApp {
 
     /// Shows the panel at the side, on a phone below: the mode's controls, one that takes their place, or the method.
     fn side(&mut self, ui: &mut Ui, mode: Mode, taken_by: Option<usize>, part: f32, asked: &mut Vec<Action>) {
-        let is_narrow = self.is_narrow;
-        // On a phone the panel is drawn up and down.
-        let is_drawn = is_narrow && theme::suits_finger(ui.ctx());
+        let is_stacked = self.is_stacked;
+        // Where a finger points the panel is drawn up and down.
+        let is_drawn = is_stacked && theme::suits_finger(ui.ctx());
         let index_of_mode = self.panels.all().into_iter().position(|panel| panel.mode() == Some(mode));
         let of_mode = index_of_mode.filter(|&index| self.panels.all()[index].replaces_method());
         let instead = of_mode.or(taken_by);
-        let peek = if instead.is_none() { panel::PEEK } else { 8.0 };
-        let stops = Stops::new(ui.available_height(), part, peek);
+        // Who presents sees no method; the trial and a scan cannot be used without.
+        if self.presenter.is_on() && instead.is_none() {
+            return self.presented(ui);
+        }
+        let content = match instead {
+            Some(index) if !self.panels.all()[index].has_head() => Content::Plain,
+            instead => Content::Headed(instead),
+        };
+        self.drawer.take(content, ui.available_height(), part);
         let side = if is_drawn {
-            Panel::bottom("panel").exact_size(self.drawer.height(stops))
-        } else if is_narrow {
+            Panel::bottom("panel").exact_size(self.drawer.height())
+        } else if is_stacked {
             Panel::bottom("panel").exact_size(ui.available_height() * part)
         } else {
             Panel::left("panel").resizable(true).default_size(296.0).size_range(256.0..=440.0)
         };
-        // Who presents sees no method; the trial and a scan cannot be used without.
-        if self.presenter.is_on() && instead.is_none() {
-            return;
-        }
         let margin = Margin { top: if is_drawn { 0 } else { 8 }, ..Margin::symmetric(16, 8) };
         side.frame(Frame::side_top_panel(ui.style()).inner_margin(margin)).show(ui, |ui| {
             if is_drawn {
-                self.drawer.handle(ui, stops);
-                if self.drawer.peeks(stops) {
-                    ui.spacing_mut().item_spacing.y = 3.0;
-                    if instead.is_none() {
-                        panel::peek(ui, &self.state, asked);
+                self.drawer.handle(ui);
+            }
+            let is_low = is_drawn && self.drawer.peeks();
+            match (content, instead) {
+                (Content::Headed(_), _) => self.headed(ui, mode, instead, is_low, asked),
+                (Content::Plain, Some(index)) if !is_low => {
+                    let (panels, now) = self.with_now(mode);
+                    if let Some(panel) = panels.all_mut().into_iter().nth(index) {
+                        panel.show(ui, now, asked);
                     }
-                    return;
                 }
+                (Content::Plain, _) => {}
             }
-            let Some(index) = instead else {
-                return row::scrolled(ui, |ui| self.method_panel(ui, asked));
-            };
-            let (panels, now) = self.with_now(mode);
-            if let Some(panel) = panels.all_mut().into_iter().nth(index) {
-                panel.show(ui, now, asked);
-            }
+        });
+    }
+
+    /// Shows the method, or the panel that stands in its place, with its head above what scrolls; in a window that is too
+    /// low for that the head scrolls, too.
+    fn headed(&mut self, ui: &mut Ui, mode: Mode, instead: Option<usize>, is_low: bool, asked: &mut Vec<Action>) {
+        if let Some(panel) = self.panels.of_mut(mode).filter(|panel| !self.is_stacked && panel.thumb_height().is_some())
+        {
+            panel.show_thumbs(ui);
+        }
+        if !is_low && !self.drawer.docks(ui.available_height()) {
+            return row::scrolled(ui, |ui| {
+                let height = ui.scope(|ui| self.head(ui, mode, instead, asked)).response.rect.height();
+                self.drawer.take_head(ui, height);
+                self.below_head(ui, mode, instead, asked);
+            });
+        }
+        let height = row::docked(ui, |ui| self.head(ui, mode, instead, asked));
+        self.drawer.take_head(ui, height);
+        if !is_low {
+            ui.separator();
+            row::scrolled(ui, |ui| self.below_head(ui, mode, instead, asked));
+        }
+    }
+
+    fn head(&mut self, ui: &mut Ui, mode: Mode, instead: Option<usize>, asked: &mut Vec<Action>) {
+        let Some(index) = instead else {
+            return self.dock(ui);
+        };
+        let (panels, now) = self.with_now(mode);
+        if let Some(panel) = panels.all_mut().into_iter().nth(index) {
+            panel.show_head(ui, now, asked);
+        }
+    }
+
+    fn below_head(&mut self, ui: &mut Ui, mode: Mode, instead: Option<usize>, asked: &mut Vec<Action>) {
+        let Some(index) = instead else {
+            return self.method_panel(ui, asked);
+        };
+        let (panels, now) = self.with_now(mode);
+        if let Some(panel) = panels.all_mut().into_iter().nth(index) {
+            panel.show(ui, now, asked);
+        }
+    }
+
+    /// Shows what is dragged. What it sets is done at once: what follows, and the views, are of the level that was just
+    /// asked for.
+    fn dock(&mut self, ui: &mut Ui) {
+        let mut asked = Vec::new();
+        ui.push_id("dock", |ui| panel::dock(ui, &self.state, &mut asked));
+        self.act_on_all(asked, ui.ctx());
+    }
+
+    /// Shows what of the method stays in sight while someone presents.
+    fn presented(&mut self, ui: &mut Ui) {
+        let margin = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
+        Panel::bottom("dock").frame(margin).show(ui, |ui| {
+            row::docked(ui, |ui| self.dock(ui));
         });
     }
 
@@ -174,8 +232,7 @@ impl LumenApp {
         (&mut self.panels, now)
     }
 
-    /// Shows the method from top to bottom. What its steps set is done at once: what follows, and the views, are of the
-    /// level that was just asked for.
+    /// Shows the method from top to bottom. What its steps set is done at once, as in the dock.
     fn method_panel(&mut self, ui: &mut Ui, asked: &mut Vec<Action>) {
         for (id, step) in panel::STEPS {
             let mut of_step = Vec::new();
@@ -205,10 +262,16 @@ impl LumenApp {
                 for filling in self.panels.filling_mut() {
                     filling.release(&self.state, &mut self.views);
                 }
-                match self.panels.filling_of_mut(mode) {
-                    Some(filling) => filling.fill(ui, &self.state, &mut self.views, self.is_narrow),
-                    None => self.show_views(ui).into_iter().collect(),
+                if let Some(filling) = self.panels.filling_of_mut(mode) {
+                    return filling.fill(ui, &self.state, &mut self.views, self.is_narrow);
                 }
+                let mut asked = Vec::from_iter(self.show_views(ui));
+                // Who learns or presents has a surface to look at.
+                let is_free = self.panels.lesson.given().is_none() && !self.presenter.is_on();
+                if self.invites && is_free && self.state.shows_sample() {
+                    invitation::show(ui, self.views.first(), &mut asked);
+                }
+                asked
             });
         self.act_on_all(asked.inner, ui.ctx());
         let mut asked = Vec::new();

@@ -35,6 +35,9 @@ use crate::say;
 /// Below this width in points the views stack and the panel becomes a sheet at the bottom.
 const NARROW: f32 = 720.0;
 
+/// A window that is so many times as high as wide has the panel below the views, too: a tablet that is held upright.
+const UPRIGHT: f32 = 1.2;
+
 /// How often the engine is listened to while it works and nothing else moves.
 const LISTEN: Duration = Duration::from_millis(16);
 
@@ -55,6 +58,8 @@ pub struct LumenApp {
     speech: Speech,
     platform: Box<dyn Platform>,
     sheet: Option<Sheet>,
+    /// Whether the sample invites to open a file.
+    invites: bool,
     presenter: Presenter,
     drawer: Drawer,
     /// Whether a field was typed into at the end of the frame before.
@@ -63,6 +68,8 @@ pub struct LumenApp {
     look_next: bool,
     /// Whether the window is that of a phone, in this frame.
     is_narrow: bool,
+    /// Whether the panel stands below the views, in this frame.
+    is_stacked: bool,
     /// Whether links can be made here.
     has_links: bool,
 }
@@ -93,11 +100,13 @@ impl LumenApp {
             speech,
             platform,
             sheet: None,
+            invites: true,
             presenter: Presenter::default(),
             drawer: Drawer::default(),
             was_typing: false,
             look_next: false,
             is_narrow: false,
+            is_stacked: false,
             has_links: false,
         };
         if !app.platform.prefers_less_motion() {
@@ -276,7 +285,9 @@ impl eframe::App for LumenApp {
             keys == Keys::Views && ctx.input(|input| input.key_down(Key::B) || has_space && input.key_down(Key::Space));
         let is_asked = by_key || self.views.before_is_held || self.views.options.before;
         self.views.show_before = is_asked || self.state.awaits_levels();
-        self.is_narrow = ui.available_width() < NARROW;
+        let window = ui.available_size();
+        self.is_narrow = window.x < NARROW;
+        self.is_stacked = self.is_narrow || window.y > UPRIGHT * window.x;
         self.has_links = self.platform.address().is_some();
         self.controls(ui);
         self.take_keys(ui, keys);

@@ -2,7 +2,7 @@
 
 use super::canvas::Canvas;
 use crate::language::decimal;
-use crate::mesh::{InnerBall, Vec3};
+use crate::mesh::{Ball, Vec3};
 use crate::say;
 use crate::sharing::measures::{Found, Measure};
 
@@ -43,7 +43,7 @@ pub(super) fn begun(canvas: &Canvas<'_>, places: &[Vec3]) {
 }
 
 /// Draws the ball under the pointer, with its diameter.
-pub(super) fn ball(canvas: &Canvas<'_>, ball: &InnerBall) {
+pub(super) fn ball(canvas: &Canvas<'_>, ball: &Ball) {
     let visuals = canvas.ui.visuals();
     canvas.circle(ball.centre, ball.radius, 1.5, visuals.hyperlink_color);
     canvas.dot(ball.centre, visuals.hyperlink_color);

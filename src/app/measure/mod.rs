@@ -27,7 +27,7 @@ use super::keys;
 use super::mode::{Acting, Beside, Entry, Group, Layer, Mode, Now, Panel, Place};
 use super::state::State;
 use crate::language::Key;
-use crate::mesh::{InnerBall, Vec3};
+use crate::mesh::{Ball, Vec3};
 use crate::render::Camera;
 
 /// What a user is about to measure. The clip plane and the marks of the measures stay in the views when the panel is
@@ -49,7 +49,7 @@ pub struct Measuring {
     chosen: Option<usize>,
     indexing: subject::Indexing,
     /// The ball under the pointer, and what it was found for.
-    under: Option<(Under, Option<InnerBall>)>,
+    under: Option<(Under, Option<Ball>)>,
     cuts: cap::Cuts,
 }
 

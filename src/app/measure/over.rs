@@ -11,7 +11,7 @@ use crate::app::assist::describe;
 use crate::app::document::Document;
 use crate::app::places::in_view;
 use crate::app::theme;
-use crate::mesh::InnerBall;
+use crate::mesh::Ball;
 use crate::pipeline::settings::Keep;
 use crate::render::{Camera, ClipPlane};
 use crate::say;
@@ -126,7 +126,7 @@ impl Measuring {
     }
 
     /// The ball inside that touches the wall under the pointer. Its index is built while one waits.
-    fn ball_under(&mut self, ui: &Ui, response: &Response, document: &Document, seen: &Seen<'_>) -> Option<InnerBall> {
+    fn ball_under(&mut self, ui: &Ui, response: &Response, document: &Document, seen: &Seen<'_>) -> Option<Ball> {
         if seen.index == 0 {
             let subject = Subject::new(document, false, seen.keep)?;
             if self.indexing.advance(&subject, false).is_none() {

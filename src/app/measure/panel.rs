@@ -10,7 +10,7 @@ use crate::app::control::Setting;
 use crate::app::document::Document;
 use crate::app::icon::{self, Icon};
 use crate::app::mode::Now;
-use crate::app::row::{remark, row, warning};
+use crate::app::row::{remark, row, warning, wrapped};
 use crate::app::state::State;
 use crate::app::theme;
 use crate::mesh::Vec3;
@@ -170,6 +170,6 @@ fn one(ui: &mut Ui, i: usize, measure: &Measure, is_chosen: bool, asked: &mut Ve
             asked.push(Action::Measure(Asked::Delete(i)));
         }
     });
-    ui.add(egui::Label::new(measure.value()).wrap());
-    ui.add(egui::Label::new(RichText::new(measure.made()).small().weak()).wrap());
+    wrapped(ui, &measure.value(), |text| text);
+    wrapped(ui, &measure.made(), |text| text.small().weak());
 }

@@ -1,13 +1,14 @@
-//! The panel: the method from top to bottom, each step with its few controls, its result in numbers, and one line
-//! that says what it does.
+//! The panel: what is dragged, always in sight, and below it the method from top to bottom: each step folds, with a line
+//! that says what it does, its few controls, and what experts alone change folded in it.
 
+mod dock;
 mod reduce;
 mod result;
 mod smooth;
 mod steps;
 mod surface;
 
-pub(super) use self::reduce::peek;
+pub(super) use self::dock::dock;
 pub(super) use self::result::result;
 pub(super) use self::steps::STEPS;
 use super::action::Action;
@@ -15,9 +16,6 @@ use super::document::Document;
 use super::state::State;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::Settings;
-
-/// Height of what [`peek`] shows, in points.
-pub(super) const PEEK: f32 = 132.0;
 
 /// Asks for `settings`, if they are others than those of `state`.
 fn set(settings: Settings, state: &State, asked: &mut Vec<Action>) {
@@ -29,4 +27,9 @@ fn set(settings: Settings, state: &State, asked: &mut Vec<Action>) {
 /// The numbers of the level that is shown, or of the one before.
 fn measured(document: Option<&Document>) -> Option<&Report> {
     Some(&document?.measured.as_ref()?.report)
+}
+
+/// How many triangles enter the reduction.
+fn entering(state: &State) -> Option<usize> {
+    Some(state.document.as_ref()?.levels.as_ref()?.1.triangles.len())
 }

@@ -1,40 +1,55 @@
-//! The reduction: what it stops at, and by which method.
+//! The third step of the panel: what the reduction stops at, and by which method.
 
-use egui::{ComboBox, Role, Ui};
+use egui::{ComboBox, RichText, Role, Ui};
 
-use super::{measured, set};
+use super::{entering, measured, set};
 use crate::app::action::Action;
 use crate::app::assist::name;
-use crate::app::control::{self, Change, Setting, reads_comma};
+use crate::app::control::{self, reads_comma};
 use crate::app::error_plot;
-use crate::app::row::{number, remark, row, step};
+use crate::app::row::{Fold, advanced, remark, row};
 use crate::app::state::State;
 use crate::app::swipe::Way;
 use crate::app::views::Views;
-use crate::language::{decimal, tell, text};
+use crate::language::{decimal, tell};
 use crate::pipeline::report::AutoReport;
-use crate::pipeline::safe::Safe;
-use crate::pipeline::settings::table::{self, Kind};
+use crate::pipeline::settings::table;
 use crate::pipeline::settings::{Settings, Target, reduction_percent};
 use crate::pipeline::verdict;
 use crate::say;
 
+/// The bound that a reset goes back to: 0.1 mm.
+pub(super) const DEFAULT_BOUND: Target = Target::Deviation(100);
+/// The largest bound of the slider, in thousandths of a mm.
+pub(super) const LARGEST_BOUND: u32 = 10_000;
+
 /// Shows the step.
 pub(super) fn show(ui: &mut Ui, state: &State, _: &Views, asked: &mut Vec<Action>) {
     let mut settings = state.settings.clone();
-    reduction(ui, state, &mut settings);
+    let summary = RichText::new(settings.decimation.method.name()).weak();
+    let (title, what) = (say!("panel-reduce"), say!("panel-reduce-does"));
+    Fold { number: 3, title: &title, what: &what, summary, is_open: true }
+        .show(ui, |ui| reduction(ui, state, &title, &mut settings));
     set(settings, state, asked);
 }
 
 /// Changes `settings`, a copy of those of `state`.
-fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings) {
-    step(ui, 3, &say!("panel-reduce"), &say!("panel-reduce-does"));
+fn reduction(ui: &mut Ui, state: &State, title: &str, settings: &mut Settings) {
     stop_list(ui, state, &mut settings.target);
-    if settings.target.deviation_mm().is_some() {
-        largest_deviation(ui, state, settings);
-    } else {
-        rate_or_count(ui, state, settings);
+    if settings.target.deviation_mm().is_none() {
+        auto(ui, state, &mut settings.target);
+        wanted(ui, state, &mut settings.target);
     }
+    let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
+    if let Some(shortfall) = shown.and_then(|shown| shown.level.shortfall.as_ref()) {
+        remark(ui, &format!("{}.", tell(&shortfall.message())));
+    }
+    error_plot::section(ui, state, &mut settings.target);
+    advanced(ui, title, |ui| decimation(ui, state, settings));
+}
+
+/// How it is reduced.
+fn decimation(ui: &mut Ui, state: &State, settings: &mut Settings) {
     // Where it is on, it can be turned off.
     let has_labels =
         state.document.as_ref().is_some_and(|document| document.import.arrays.iter().any(|info| info.labels.len() > 1));
@@ -43,11 +58,6 @@ fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings) {
         if (setting.matters)(settings) {
             control::setting(ui, setting, settings);
         }
-    }
-    error_plot::section(ui, state, &mut settings.target);
-    let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
-    if let Some(shortfall) = shown.and_then(|shown| shown.level.shortfall.as_ref()) {
-        remark(ui, &format!("{}.", tell(&shortfall.message())));
     }
 }
 
@@ -92,104 +102,8 @@ fn rate_shown(state: &State) -> Target {
     })
 }
 
-/// The bound that a reset goes back to: 0.1 mm.
-const DEFAULT_BOUND: Target = Target::Deviation(100);
-/// The largest bound of the slider, in thousandths of a mm.
-const LARGEST_BOUND: u32 = 10_000;
-
-/// The slider of a target that is said in the way `key` of the table, where it stands at `value`.
-fn target_row(
-    ui: &mut Ui,
-    key: &str,
-    value: f64,
-    target: &mut Target,
-    show: impl FnOnce(Setting<'_>, &mut Ui, &mut f64) -> Change,
-) {
-    let Some(setting) = table::find(key) else { return };
-    let Kind::Target { steps, make, named, ref range, .. } = setting.kind else { return };
-    let (words, help) = (text(setting.messages.label), text(setting.messages.help));
-    let mut value = value;
-    let shown =
-        Setting { auto: named.map(|(_, auto)| auto == *target), ..control::number(setting, range, &words, &help) };
-    *target = match (show(shown, ui, &mut value), named) {
-        (Change::None, _) => return,
-        (Change::Reset, Some((_, auto))) => auto,
-        _ => make((value * f64::from(steps)).round() as u32),
-    };
-}
-
-/// The slider of the largest deviation.
-fn bound(ui: &mut Ui, target: &mut Target) {
-    let largest = f64::from(LARGEST_BOUND) / 1000.0;
-    let default = DEFAULT_BOUND.deviation_mm().unwrap_or_default();
-    target_row(ui, "max-deviation", target.deviation_mm().unwrap_or_default(), target, |row, ui, bound| {
-        Setting { range: *row.range.start()..=largest, default, ..row }.show_with_mark(ui, bound, None)
-    });
-}
-
-fn largest_deviation(ui: &mut Ui, state: &State, settings: &mut Settings) {
-    bound(ui, &mut settings.target);
-    // Of these settings and no others: another smoothing has other levels.
-    let is_current = *settings == state.settings && state.has_level();
-    let found = measured(state.document.as_ref()).filter(|_| is_current).and_then(|report| report.bound);
-    let next = found.map(|found| match found.next_coarser_mm {
-        Some(mm) => format!("{} mm", decimal(mm, 3)),
-        None => say!("panel-next-coarser-none"),
-    });
-    let help = say!("panel-next-coarser-help");
-    number(ui, &say!("panel-next-coarser"), next.as_deref().unwrap_or("–"), &help);
-}
-
-/// What is safe in words, and a way there. The row is there before it is known: what lies below must not move when it is.
-fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Target) {
-    let mut help = say!("panel-safe-help", tolerance = tolerance);
-    if let Some(why) = safe.and_then(|safe| safe.stopped_by.as_ref()) {
-        help += &format!(" {}.", tell(why));
-    }
-    if let Some(why) = safe.and_then(|safe| safe.refused.as_ref()) {
-        help += " ";
-        help += &say!("panel-safe-refused", why = tell(why));
-    }
-    let changed = safe.map_or(0, |safe| safe.branches.iter().filter(|branch| branch.changed_by_smoothing).count());
-    if changed > 0 {
-        help += " ";
-        help += &say!("panel-safe-changed", count = changed);
-    }
-    let percent = safe.and_then(|safe| safe.percent);
-    let wanted = percent.map(verdict::rate);
-    row(ui, &say!("panel-safe"), &help, |ui| {
-        let go =
-            ui.add_enabled(wanted.is_some_and(|wanted| wanted != *target), egui::Button::new(say!("panel-go-there")));
-        if let Some(wanted) = wanted.filter(|_| go.on_hover_text(say!("panel-safe-go-help")).clicked()) {
-            *target = wanted;
-        }
-        ui.label(match (safe, percent) {
-            (_, Some(percent)) => format!("{} %", decimal(percent, 1)),
-            (Some(_), None) => "–".to_owned(),
-            (None, _) => "...".to_owned(),
-        });
-    });
-}
-
-/// How many triangles enter the reduction.
-fn entering(state: &State) -> Option<usize> {
-    Some(state.document.as_ref()?.levels.as_ref()?.1.triangles.len())
-}
-
-/// The slider of the rate.
-fn rate(ui: &mut Ui, state: &State, target: &mut Target) {
-    let is_auto = *target == Target::Auto;
-    let found = state.auto().filter(|_| is_auto);
-    let percent = found.map_or_else(|| target.percent(entering(state).unwrap_or(0)), |found| found.percent);
-    let safe = state.safe().and_then(|safe| safe.percent);
-    let unit = format!(" % ({})", say!("panel-auto-short"));
-    target_row(ui, "reduction", percent, target, |row, ui, percent| {
-        Setting { unit: if is_auto { &unit } else { row.unit }, ..row }.show_with_mark(ui, percent, safe)
-    });
-}
-
 /// Whether the rate is set by itself, and what it then goes by.
-fn auto_row(ui: &mut Ui, state: &State, target: &mut Target) {
+fn auto(ui: &mut Ui, state: &State, target: &mut Target) {
     let was_auto = *target == Target::Auto;
     let percent = |found: &AutoReport| decimal(found.percent, 1);
     let text = match state.auto().filter(|_| was_auto) {
@@ -206,42 +120,20 @@ fn auto_row(ui: &mut Ui, state: &State, target: &mut Target) {
     }
 }
 
-fn rate_or_count(ui: &mut Ui, state: &State, settings: &mut Settings) {
-    let safe = state.safe();
-    let target = &mut settings.target;
-    rate(ui, state, target);
-    auto_row(ui, state, target);
-    safe_row(ui, safe, settings.tolerance_percent, target);
-    if let Some(entering) = entering(state) {
-        row(ui, &say!("panel-wanted"), &say!("panel-wanted-help"), |ui| {
-            // The field shows what can be typed into it: left alone, it sets nothing.
-            let most = entering.max(1);
-            let found = state.auto().filter(|_| *target == Target::Auto);
-            let wanted = found.map_or(*target, |found| verdict::rate(found.percent)).triangles(entering).clamp(1, most);
-            let mut typed = wanted;
-            let field = egui::DragValue::new(&mut typed).range(1..=most).speed(entering as f64 / 500.0);
-            let response = ui.add(reads_comma(field, true).update_while_editing(false));
-            name(&response, Role::SpinButton, &say!("panel-wanted"));
-            if !Way::of(ui).scroll(ui, &response) && typed != wanted {
-                *target = Target::Triangles(typed as u32);
-            }
-        });
-    }
-}
-
-/// Shows what is seen of the panel where there is no room for more: the count, and how far the reduction goes.
-pub(in crate::app) fn peek(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
-    let document = state.document.as_ref();
-    let counts = document.and_then(|document| Some((&document.levels.as_ref()?.1, document.shown.as_ref()?)));
-    let Some((levels, shown)) = counts else { return };
-    let counts = say!("panel-of", count = shown.level.triangles.len(), all = levels.triangles.len());
-    number(ui, &say!("panel-triangles"), &counts, &say!("panel-of-help"));
-    let mut settings = state.settings.clone();
-    let is_bound = settings.target.deviation_mm().is_some();
-    if is_bound {
-        bound(ui, &mut settings.target);
-    } else {
-        rate(ui, state, &mut settings.target);
-    }
-    set(settings, state, asked);
+/// The reduction as a number of triangles.
+fn wanted(ui: &mut Ui, state: &State, target: &mut Target) {
+    let Some(entering) = entering(state) else { return };
+    row(ui, &say!("panel-wanted"), &say!("panel-wanted-help"), |ui| {
+        // The field shows what can be typed into it: left alone, it sets nothing.
+        let most = entering.max(1);
+        let found = state.auto().filter(|_| *target == Target::Auto);
+        let wanted = found.map_or(*target, |found| verdict::rate(found.percent)).triangles(entering).clamp(1, most);
+        let mut typed = wanted;
+        let field = egui::DragValue::new(&mut typed).range(1..=most).speed(entering as f64 / 500.0);
+        let response = ui.add(reads_comma(field, true).update_while_editing(false));
+        name(&response, Role::SpinButton, &say!("panel-wanted"));
+        if !Way::of(ui).scroll(ui, &response) && typed != wanted {
+            *target = Target::Triangles(typed as u32);
+        }
+    });
 }

@@ -22,8 +22,6 @@ pub(in crate::app) fn result(ui: &mut Ui, state: &State, asked: &mut Vec<Action>
         return remark(ui, &say!("panel-result-follows"));
     };
     let (before, after) = (levels.triangles.len(), shown.level.triangles.len());
-    let counts = say!("panel-of", count = after, all = before);
-    number(ui, &say!("panel-triangles"), &counts, &say!("panel-of-help"));
     let vertices = say!("panel-of", count = shown.vertices, all = document.entering_vertices);
     number(ui, &say!("panel-vertices"), &vertices, &say!("panel-of-help"));
     number(ui, &say!("panel-removed"), &format!("{} %", decimal(reduction_percent(before, after), 2)), "");

@@ -1,11 +1,11 @@
 //! The second step of the panel: the controls of the smoothing filter, its response and what it did to the surface.
 
-use egui::{Button, ComboBox, Role, Ui};
+use egui::{Button, ComboBox, RichText, Role, Ui};
 
 use super::{measured, set};
 use crate::app::action::Action;
 use crate::app::assist::name;
-use crate::app::row::{remark, row, step};
+use crate::app::row::{Fold, advanced, remark, row};
 use crate::app::state::State;
 use crate::app::views::Views;
 use crate::app::{control, response, theme};
@@ -16,22 +16,32 @@ use crate::say;
 
 /// Height of what is seen at a place that is gone to, in edges.
 const AROUND: f32 = 60.0;
-/// The settings from top to bottom; one that is not among them comes last.
-const ORDER: [&str; 6] = ["pass-band", "iterations", "window", "adapt", "guard", "preserve-volume"];
+/// Settings that stand in the dock.
+const DOCKED: [&str; 2] = ["pass-band", "iterations"];
+/// The others from top to bottom; one that is not among them comes last.
+const ORDER: [&str; 4] = ["window", "adapt", "guard", "preserve-volume"];
 
 /// Shows the step.
 pub(super) fn show(ui: &mut Ui, state: &State, _: &Views, asked: &mut Vec<Action>) {
     let mut settings = state.settings.clone();
-    smoothing(ui, &mut settings, state, asked);
+    let summary = RichText::new(strength(&settings.smoothing).1).weak();
+    let (title, what) = (say!("panel-smooth"), say!("panel-smooth-does"));
+    Fold { number: 2, title: &title, what: &what, summary, is_open: true }
+        .show(ui, |ui| smoothing(ui, &title, &mut settings, state, asked));
     set(settings, state, asked);
+}
+
+/// The settings that have a name and are these, and what they are called.
+fn strength(smoothing: &Smoothing) -> (Option<Preset>, String) {
+    // Whether the volume is held is chosen beside it.
+    let chosen = Preset::of(&Smoothing { preserve_volume: false, ..*smoothing });
+    (chosen, chosen.map_or_else(|| say!("panel-strength-own"), |preset| tell(&preset)))
 }
 
 /// The settings that have a name.
 fn preset_list(ui: &mut Ui, smoothing: &mut Smoothing) {
     row(ui, &say!("panel-strength"), &say!("panel-strength-help"), |ui| {
-        // Whether the volume is held is chosen beside it.
-        let chosen = Preset::of(&Smoothing { preserve_volume: false, ..*smoothing });
-        let words = chosen.map_or_else(|| say!("panel-strength-own"), |preset| tell(&preset));
+        let (chosen, words) = strength(smoothing);
         let list = ComboBox::from_id_salt("preset").selected_text(words);
         let response = list.show_ui(ui, |ui| {
             for preset in Preset::ALL {
@@ -45,11 +55,15 @@ fn preset_list(ui: &mut Ui, smoothing: &mut Smoothing) {
     });
 }
 
-fn smoothing(ui: &mut Ui, settings: &mut Settings, state: &State, asked: &mut Vec<Action>) {
-    let report = measured(state.document.as_ref());
-    step(ui, 2, &say!("panel-smooth"), &say!("panel-smooth-does"));
+fn smoothing(ui: &mut Ui, title: &str, settings: &mut Settings, state: &State, asked: &mut Vec<Action>) {
     preset_list(ui, &mut settings.smoothing);
-    let mut rows: Vec<_> = table::of("smoothing").collect();
+    effect(ui, &settings.smoothing, state, asked);
+    advanced(ui, title, |ui| filter(ui, settings));
+}
+
+/// How the filter is made.
+fn filter(ui: &mut Ui, settings: &mut Settings) {
+    let mut rows: Vec<_> = table::of("smoothing").filter(|setting| !DOCKED.contains(&setting.key)).collect();
     rows.sort_by_key(|setting| ORDER.iter().position(|key| *key == setting.key).unwrap_or(ORDER.len()));
     let (switches, others): (Vec<_>, Vec<_>) =
         rows.into_iter().partition(|row| matches!(row.kind, Kind::Switch { .. }));
@@ -61,7 +75,11 @@ fn smoothing(ui: &mut Ui, settings: &mut Settings, state: &State, asked: &mut Ve
             control::setting(ui, setting, settings);
         }
     });
-    let smoothing = &settings.smoothing;
+}
+
+/// What the filter lets through, and where less was smoothed.
+fn effect(ui: &mut Ui, smoothing: &Smoothing, state: &State, asked: &mut Vec<Action>) {
+    let report = measured(state.document.as_ref());
     let edge_length = report.and_then(|report| report.smoothing_response).map(|response| response.edge_length_mm);
     let lumen = report.and_then(|report| report.smoothed_shape.as_ref()?.smallest_lumen);
     let thinnest = lumen.map(|lumen| lumen.diameter_mm);

@@ -7,7 +7,7 @@ use crate::app::action::Action;
 use crate::app::assist::name;
 use crate::app::document::Document;
 use crate::app::options::ViewOptions;
-use crate::app::row::{number, step};
+use crate::app::row::{Fold, number};
 use crate::app::state::State;
 use crate::app::views::Views;
 use crate::app::{array_list, axes, mending};
@@ -19,7 +19,28 @@ use crate::say;
 
 /// Shows the step.
 pub(super) fn show(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Action>) {
-    step(ui, 1, &say!("panel-surface"), &say!("panel-surface-does"));
+    let summary = summary(ui, state);
+    let (title, what) = (say!("panel-surface"), say!("panel-surface-does"));
+    Fold { number: 1, title: &title, what: &what, summary, is_open: false }
+        .show(ui, |ui| surface(ui, state, views, asked));
+}
+
+/// That the surface is to be mended; else how many triangles are kept.
+fn summary(ui: &Ui, state: &State) -> RichText {
+    if mending::is_called_for(state) {
+        return RichText::new(say!("panel-surface-to-mend")).color(ui.visuals().error_fg_color);
+    }
+    let count = state.document.as_ref().and_then(|document| kept(document, state.settings.keep));
+    RichText::new(count.map_or_else(String::new, |count| say!("panel-triangle-count", count = count))).weak()
+}
+
+/// How many triangles are kept, once the pieces are known.
+fn kept(document: &Document, keep: Keep) -> Option<usize> {
+    let pieces = &document.pieces;
+    (!pieces.list.is_empty()).then(|| pieces.kept(keep).map(|piece| piece.triangles as usize).sum())
+}
+
+fn surface(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Action>) {
     let Some(document) = &state.document else {
         ui.label(say!("panel-surface-none"));
         return;
@@ -29,11 +50,8 @@ pub(super) fn show(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Ac
     axes::list(ui, document, asked);
     let in_file = grouped(document.import.triangles);
     number(ui, &say!("panel-in-file"), &in_file, &say!("panel-in-file-help"));
-    if pieces.list.is_empty() {
-        return;
-    }
     let keep = state.settings.keep;
-    let kept_count: usize = pieces.kept(keep).map(|piece| piece.triangles as usize).sum();
+    let Some(kept_count) = kept(document, keep) else { return };
     number(ui, &say!("panel-kept"), &say!("panel-triangle-count", count = kept_count), "");
     let left_out = document.opened.triangles.len() - kept_count;
     let others = pieces.list.len() - pieces.kept(keep).count();

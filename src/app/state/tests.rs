@@ -453,7 +453,7 @@ fn new_levels_have_no_colours_and_no_pinched_vessel_of_older_ones() {
         diameter_after_mm: 0.0,
     };
     measured.report.pinch = Some(pinch);
-    let narrowing = crate::pipeline::lumen::Narrowing {
+    let narrowing = crate::vessel::width::Narrowing {
         ratio: 0.0,
         at_mm: [0.0; 3],
         diameter_before_mm: 2.0,
@@ -463,7 +463,7 @@ fn new_levels_have_no_colours_and_no_pinched_vessel_of_older_ones() {
     measured.report.narrowing = Some(narrowing);
     assert!(document.pinch().is_some());
     // A coarser level may open what a finer one had pinched: there it is not told.
-    let opened = crate::pipeline::lumen::Narrowing { ratio: 0.9, pinched_places: 0, ..narrowing };
+    let opened = crate::vessel::width::Narrowing { ratio: 0.9, pinched_places: 0, ..narrowing };
     document.measured.as_mut().unwrap().report.narrowing = Some(opened);
     assert!(document.pinch().is_none());
     document.measured.as_mut().unwrap().report.narrowing = Some(narrowing);

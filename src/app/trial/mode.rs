@@ -11,7 +11,6 @@ use crate::app::document::Document;
 use crate::app::filling::Filling;
 use crate::app::mode::{Acting, Beside, Entry, Group, Layer, Mode, Now, Panel};
 use crate::app::platform::Platform;
-use crate::app::row;
 use crate::app::state::State;
 use crate::app::views::Views;
 use crate::language::Key;
@@ -141,11 +140,18 @@ impl Panel for TrialPanel {
         Some(Action::Trial(asked))
     }
 
+    fn has_head(&self) -> bool {
+        true
+    }
+
+    fn show_head(&mut self, ui: &mut Ui, _: Now<'_>, asked: &mut Vec<Action>) {
+        let mut of_trial = Vec::new();
+        panel::head(ui, &self.trial, &mut of_trial);
+        asked.extend(of_trial.into_iter().map(Action::Trial));
+    }
+
     fn show(&mut self, ui: &mut Ui, now: Now<'_>, asked: &mut Vec<Action>) {
-        if !now.is_narrow {
-            self.trial.pads(ui);
-        }
-        row::scrolled(ui, |ui| self.show_step(ui, now.state, asked));
+        self.show_step(ui, now.state, asked);
     }
 
     fn thumb_height(&self) -> Option<f32> {

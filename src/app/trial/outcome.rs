@@ -8,7 +8,7 @@ use super::marks;
 use super::state::{Comparing, Trial};
 use crate::app::assist::name;
 use crate::app::control::progress;
-use crate::app::row::number;
+use crate::app::row::{number, wrapped};
 use crate::app::still_plot::tick;
 use crate::engine::trial::TrialComparison;
 use crate::language::{decimal, tell};
@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
 }
 
 fn shown(ui: &mut Ui, comparison: &TrialComparison) {
-    ui.add(egui::Label::new(RichText::new(tell(&comparison.verdict)).strong()).wrap());
+    wrapped(ui, &tell(&comparison.verdict), RichText::strong);
     let [after, before] = [comparison.smallest_after_mm, comparison.smallest_before_mm].map(|mm| decimal(mm, 2));
     let diameters = say!("trial-smallest-was", after = after, before = before);
     number(ui, &say!("trial-smallest"), &diameters, &say!("trial-smallest-help"));

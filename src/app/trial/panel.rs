@@ -1,6 +1,6 @@
 //! The trial's part of the panel, and its keys.
 
-use egui::{Button, Key, Modifiers, RichText, Ui};
+use egui::{Button, Key, Modifiers, Ui};
 
 use super::action::Action;
 use super::state::{AWAITS, Open, Stage, Trial};
@@ -8,11 +8,14 @@ use super::{device, fluoroscope, outcome, readout, rumble, setup, sound};
 use crate::app::control::progress;
 use crate::app::document::Document;
 use crate::app::keys::pressed;
-use crate::app::row::{remark, step, warning};
+use crate::app::row::{remark, step, title, warning, wrapped};
 use crate::pipeline::settings::Smoothing;
 use crate::say;
 
-/// Shows the step; while the trial's views are shown it has the panel to itself. What was set there comes before what was
+/// Lines that there is room for in the sentence on how the trial stands.
+const SENTENCE_LINES: f32 = 2.0;
+
+/// Shows the step; while the trial's views are shown, what stands below its head. What was set there comes before what was
 /// asked for, which is done with it.
 pub(super) fn show(
     ui: &mut Ui,
@@ -21,16 +24,24 @@ pub(super) fn show(
     document: Option<&Document>,
     asked: &mut Vec<Action>,
 ) {
-    step(ui, 4, &say!("trial-title"), &say!("trial-title-help"));
-    if let Some(problem) = &trial.problem {
-        warning(ui, &problem.text);
+    let offers_smoothing = trial.gentler(smoothing).is_some();
+    if let Some(shown) = trial.open() {
+        if offers_smoothing {
+            adapt_smoothing(ui, asked);
+        }
+        return open(ui, trial, shown, asked);
     }
-    if trial.gentler(smoothing).is_some() {
+    step(ui, 4, &say!("trial-title"), &say!("trial-title-help"));
+    problem(ui, trial);
+    if offers_smoothing {
         adapt_smoothing(ui, asked);
     }
-    match trial.open() {
-        Some(shown) => open(ui, trial, shown, asked),
-        None => closed(ui, document, asked),
+    closed(ui, document, asked);
+}
+
+fn problem(ui: &mut Ui, trial: &Trial) {
+    if let Some(problem) = &trial.problem {
+        warning(ui, &problem.text);
     }
 }
 
@@ -57,12 +68,23 @@ fn closed(ui: &mut Ui, document: Option<&Document>, asked: &mut Vec<Action>) {
     });
 }
 
+/// Shows how the trial stands, and the buttons that steer it.
+pub(super) fn head(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
+    let Some(shown) = trial.open() else { return };
+    title(ui, 4, &say!("trial-title"));
+    problem(ui, trial);
+    let least = SENTENCE_LINES * ui.text_style_height(&egui::TextStyle::Body);
+    ui.scope(|ui| {
+        // What lies below must not move with what is said.
+        ui.set_min_height(least);
+        state(ui, shown);
+    });
+    buttons(ui, trial, shown, asked);
+}
+
 fn open(ui: &mut Ui, trial: &Trial, shown: &Open, asked: &mut Vec<Action>) {
     let before = asked.len();
-    state(ui, shown);
-    buttons(ui, trial, shown, asked);
     if let (true, Some(frame)) = (trial.is_on(), trial.frame()) {
-        ui.separator();
         ui.push_id("numbers", |ui| readout::show(ui, trial, frame));
     }
     ui.separator();
@@ -94,9 +116,8 @@ fn open(ui: &mut Ui, trial: &Trial, shown: &Open, asked: &mut Vec<Action>) {
 }
 
 fn state(ui: &mut Ui, shown: &Open) {
-    ui.add_space(4.0);
     if shown.awaits.is_some() {
-        ui.add(egui::Label::new(AWAITS.say()).wrap());
+        wrapped(ui, &AWAITS.say(), |text| text);
         return;
     }
     match &shown.stage {
@@ -111,14 +132,11 @@ fn state(ui: &mut Ui, shown: &Open) {
                 return;
             };
             let (text, is_well) = readout::sentence(run, frame);
-            let mut rich = RichText::new(text);
-            if run.summary.is_some() {
-                rich = rich.strong();
-            }
-            if !is_well {
-                rich = rich.color(ui.visuals().error_fg_color);
-            }
-            ui.add(egui::Label::new(rich).wrap());
+            let colour = ui.visuals().error_fg_color;
+            wrapped(ui, &text, |text| {
+                let text = if run.summary.is_some() { text.strong() } else { text };
+                if is_well { text } else { text.color(colour) }
+            });
         }
         Stage::Off(_) => {
             ui.label(say!("trial-none-on"));

@@ -1,18 +1,23 @@
 //! The verdict as it is shown: a strip above the views, of the same height whatever it says.
 
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Align, Color32, Context, FontSelection, Layout, RichText, Role, Shape, Stroke, Ui, pos2, vec2};
+use egui::{Align, Color32, Context, FontSelection, Layout, RichText, Role, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::findings::{look, take, verdict};
 use crate::app::action::Action;
 use crate::app::assist::name;
 use crate::app::menus::menu;
+use crate::app::options::{Colours, ViewOptions};
+use crate::app::row::remark;
 use crate::app::state::State;
 use crate::app::theme;
 use crate::app::vessels;
 use crate::language::tell;
-use crate::pipeline::verdict::{Finding, FindingKind, Verdict};
+use crate::pipeline::verdict::{Finding, FindingKind, Head, HeadText, Verdict};
 use crate::say;
+
+/// Opens the vessels with what is not measured.
+const SHOW_UNMEASURED: Action = Action::Vessels(vessels::Action::ShowUnmeasured);
 
 /// Height of a line where a mouse points, in points.
 const LINE: f32 = 24.0;
@@ -23,10 +28,14 @@ pub(in crate::app) fn height(ctx: &Context, is_narrow: bool) -> f32 {
 }
 
 /// Shows the verdict on what is shown, and says what is asked for there.
-pub(in crate::app) fn show(ui: &mut Ui, state: &State, is_narrow: bool, asked: &mut Vec<Action>) {
+pub(in crate::app) fn show(ui: &mut Ui, state: &State, options: ViewOptions, is_narrow: bool, asked: &mut Vec<Action>) {
     let Some(document) = &state.document else { return };
     let verdict = verdict(state, document);
     let first = verdict.findings.first().filter(|finding| finding.is_grave);
+    let coverage = match verdict.head_text() {
+        HeadText::Covered { coverage, .. } => Some(tell(&coverage)),
+        HeadText::Alone(_) => None,
+    };
     let text = match (first, &verdict.calibre) {
         (Some(finding), _) => tell(&finding.what),
         (None, Some(calibre)) => tell(calibre),
@@ -34,12 +43,19 @@ pub(in crate::app) fn show(ui: &mut Ui, state: &State, is_narrow: bool, asked: &
         (None, None) if state.is_measuring() => say!("verdict-follows"),
         (None, None) => say!("verdict-stopped"),
     };
+    let text = if state.shows_sample() { say!("verdict-sample", text = text) } else { text };
     ui.spacing_mut().item_spacing.y = 0.0;
     let line = theme::row(ui.ctx(), LINE);
     ui.spacing_mut().interact_size.y = line;
     ui.allocate_ui_with_layout(vec2(ui.available_width(), line), Layout::left_to_right(Align::Center), |ui| {
-        mark(ui, verdict.is_safe);
+        mark(ui, verdict.head);
         ui.label(RichText::new(tell(&verdict.head)).strong());
+        if let Some(coverage) = coverage.as_ref().filter(|_| !is_narrow) {
+            let link = egui::Button::new(RichText::new(coverage).color(ui.visuals().hyperlink_color)).frame(false);
+            if ui.add(link).on_hover_text(say!("verdict-show-unmeasured-help")).clicked() {
+                asked.push(SHOW_UNMEASURED);
+            }
+        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             buttons(ui, &verdict, first, is_narrow, asked);
             if !is_narrow {
@@ -47,8 +63,13 @@ pub(in crate::app) fn show(ui: &mut Ui, state: &State, is_narrow: bool, asked: &
             }
         });
     });
+    // What is not measured has a colour of its own.
+    if asked.contains(&SHOW_UNMEASURED) && options.colours != Colours::Calibre {
+        asked.push(Action::Show(ViewOptions { colours: Colours::Calibre, ..options }));
+    }
     if is_narrow {
-        sentence(ui, &text);
+        // There is room for one line: how much is measured comes first.
+        sentence(ui, &coverage.map_or_else(|| text.clone(), |coverage| format!("{coverage}. {text}")));
     }
 }
 
@@ -68,7 +89,7 @@ fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, is_narrow: b
                 if i > 0 {
                     ui.separator();
                 }
-                ui.add(egui::Label::new(RichText::new(tell(&finding.what)).small()).wrap());
+                remark(ui, &tell(&finding.what));
                 ui.horizontal(|ui| act(ui, finding, asked));
             }
         });
@@ -76,6 +97,12 @@ fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, is_narrow: b
     match first {
         Some(finding) if is_narrow => go(ui, finding, asked),
         Some(finding) => act(ui, finding, asked),
+        None if verdict.head == Head::KeptWhereMeasured => {
+            let show = ui.button(say!("verdict-show-unmeasured"));
+            if show.on_hover_text(say!("verdict-show-unmeasured-help")).clicked() {
+                asked.push(SHOW_UNMEASURED);
+            }
+        }
         None => {
             let vessels = ui.add_enabled(verdict.calibre.is_some(), egui::Button::new(say!("verdict-show-vessels")));
             if vessels.on_hover_text(say!("verdict-show-vessels-help")).clicked() {
@@ -126,26 +153,33 @@ fn sentence(ui: &mut Ui, text: &str) {
     }
 }
 
-/// A tick, an exclamation mark, or an empty ring while nothing is known: shape and colour say the same.
-fn mark(ui: &mut Ui, is_safe: Option<bool>) {
+/// A tick, an exclamation mark, a disc half full where too little is measured to say, or an empty ring while nothing is known:
+/// shape and colour say the same.
+fn mark(ui: &mut Ui, head: Head) {
     let (rect, _) = ui.allocate_exact_size(vec2(18.0, 18.0), egui::Sense::hover());
-    let (middle, painter) = (rect.center(), ui.painter());
-    let Some(is_safe) = is_safe else {
-        painter.circle_stroke(middle, 7.0, Stroke::new(1.5, ui.visuals().weak_text_color()));
-        return;
-    };
-    let (ground, on) = if is_safe {
-        (ui.visuals().hyperlink_color, ui.visuals().selection.stroke.color)
-    } else {
-        (ui.visuals().error_fg_color, ui.visuals().panel_fill)
-    };
-    painter.circle_filled(middle, 8.0, ground);
-    let stroke = Stroke::new(2.0, on);
-    if is_safe {
-        let tick = [pos2(-3.8, 0.2), pos2(-1.2, 2.8), pos2(3.8, -2.6)].map(|p| middle + p.to_vec2());
-        painter.add(Shape::line(tick.to_vec(), stroke));
-    } else {
-        painter.line_segment([middle + vec2(0.0, -4.2), middle + vec2(0.0, 1.0)], stroke);
-        painter.circle(middle + vec2(0.0, 4.0), 1.2, on, Stroke::new(0.0, Color32::TRANSPARENT));
+    let (middle, painter, visuals) = (rect.center(), ui.painter(), ui.visuals());
+    match head {
+        Head::Safe => {
+            painter.circle_filled(middle, 8.0, visuals.hyperlink_color);
+            let tick = [pos2(-3.8, 0.2), pos2(-1.2, 2.8), pos2(3.8, -2.6)].map(|p| middle + p.to_vec2());
+            painter.add(Shape::line(tick.to_vec(), Stroke::new(2.0, visuals.selection.stroke.color)));
+        }
+        Head::ToLookAt { .. } => {
+            let on = visuals.panel_fill;
+            painter.circle_filled(middle, 8.0, visuals.error_fg_color);
+            painter.line_segment([middle + vec2(0.0, -4.2), middle + vec2(0.0, 1.0)], Stroke::new(2.0, on));
+            painter.circle(middle + vec2(0.0, 4.0), 1.2, on, Stroke::new(0.0, Color32::TRANSPARENT));
+        }
+        Head::KeptWhereMeasured | Head::NoneMeasured => {
+            let colour = visuals.warn_fg_color;
+            painter.circle_stroke(middle, 7.25, Stroke::new(1.5, colour));
+            if head == Head::KeptWhereMeasured {
+                let half = (0..=16).map(|i| middle + 7.25 * Vec2::angled(std::f32::consts::PI * i as f32 / 16.0));
+                painter.add(Shape::convex_polygon(half.collect(), colour, Stroke::NONE));
+            }
+        }
+        Head::NotMeasured | Head::Coming => {
+            painter.circle_stroke(middle, 7.0, Stroke::new(1.5, visuals.weak_text_color()));
+        }
     }
 }

@@ -10,6 +10,8 @@ pub enum Action {
     Toggle,
     /// Draw the radius along the branch of this number.
     Select(u32),
+    /// Show them, with the one that is measured least, and go to where it is not.
+    ShowUnmeasured,
     /// Save the calibre at each place of each branch.
     SaveTable,
     /// Save the centrelines.

@@ -16,12 +16,15 @@ use super::mode::{Acting, Beside, Entry, Group, Layer, Mode, Now, Panel, Place};
 use super::state::State;
 use crate::language::Key;
 use crate::say;
+use crate::vessel::certificate::Certificate;
 
 /// What of the vessels is shown.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Vessels {
     /// The number of the branch whose radius is drawn; `None` for the one that stands first.
     selected: Option<u32>,
+    /// Whether its row is to be brought into sight.
+    scrolls: bool,
 }
 
 const TOGGLE: Ask = Ask::Vessels(Action::Toggle);
@@ -64,7 +67,7 @@ impl Panel for Vessels {
     }
 
     fn show(&mut self, ui: &mut Ui, now: Now<'_>, asked: &mut Vec<Ask>) {
-        view::show(ui, self.selected, now, asked);
+        view::show(ui, (self.selected, std::mem::take(&mut self.scrolls)), now, asked);
     }
 
     fn act(&mut self, action: Ask, acting: &mut Acting<'_>) -> Option<Ask> {
@@ -83,6 +86,15 @@ impl Panel for Vessels {
                 }
             }
             Action::Select(branch) => self.selected = Some(branch),
+            Action::ShowUnmeasured => {
+                acting.state.comparison.set_open(false);
+                *acting.beside = Beside::Vessels;
+                let found = acting.state.calibre().and_then(|calibre| calibre.found.as_ref().ok());
+                if let Some((branch, station)) = found.and_then(Certificate::least_measured) {
+                    (self.selected, self.scrolls) = (Some(branch.number), true);
+                    acting.then.extend(view::go_to_station(branch, station));
+                }
+            }
             Action::SaveTable => match acting.state.calibre_table() {
                 Some((name, bytes)) => acting.platform.offer_file(&name, bytes, acting.ctx),
                 None => acting.state.tell(&say!("app-nothing-to-save")),

@@ -10,6 +10,7 @@ use crate::app::control::reads_comma;
 use crate::app::document::Document;
 use crate::app::mode::Now;
 use crate::app::options::{Colours, ViewOptions};
+use crate::app::row::wrapped;
 use crate::app::state::State;
 use crate::app::theme;
 use crate::language::tell;
@@ -23,8 +24,9 @@ const SEEN: f32 = 16.0;
 /// What the plot takes of the width, where it stands beside the table.
 const PLOT: f32 = 0.42;
 
-/// Shows the vessels; on a phone the plot stands below the table.
-pub(super) fn show(ui: &mut Ui, selected: Option<u32>, now: Now<'_>, asked: &mut Vec<Action>) {
+/// Shows the vessels, with the branch of that number, whose row is brought into sight where that is asked for; on a phone the
+/// plot stands below the table.
+pub(super) fn show(ui: &mut Ui, (selected, scrolls): (Option<u32>, bool), now: Now<'_>, asked: &mut Vec<Action>) {
     let Now { state, options, is_narrow, .. } = now;
     ui.spacing_mut().item_spacing.y = 4.0;
     head(ui, state, options, is_narrow, asked);
@@ -36,17 +38,17 @@ pub(super) fn show(ui: &mut Ui, selected: Option<u32>, now: Now<'_>, asked: &mut
     };
     let is_current = state.calibre().is_some();
     let told = tell(&summary(&calibre.found));
-    let told = RichText::new(if is_current { told } else { format!("{told} {}", say!("vessels-newer")) });
+    let told = if is_current { told } else { format!("{told} {}", say!("vessels-newer")) };
     let is_changed = matches!(&calibre.found, Ok(found) if found.verdict == Verdict::Changed);
-    let told = if is_changed && is_current { told.color(ui.visuals().error_fg_color) } else { told };
-    ui.add(egui::Label::new(told).wrap());
+    let colour = ui.visuals().error_fg_color;
+    wrapped(ui, &told, |told| if is_changed && is_current { told.color(colour) } else { told });
     let Ok(found) = &calibre.found else { return };
     let rows = in_order(found);
     let chosen = rows.iter().find(|branch| Some(branch.number) == selected).or(rows.first());
     let Some(&branch) = chosen else { return };
     if is_narrow {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            ScrollArea::horizontal().show(ui, |ui| table(ui, &rows, branch, state, asked));
+            ScrollArea::horizontal().show(ui, |ui| table(ui, &rows, (branch, scrolls), state, asked));
             ui.allocate_ui(egui::vec2(ui.available_width(), 180.0), |ui| radius(ui, branch, found, asked));
         });
         return;
@@ -54,7 +56,7 @@ pub(super) fn show(ui: &mut Ui, selected: Option<u32>, now: Now<'_>, asked: &mut
     let (room, height) = (ui.available_width(), ui.available_height());
     ui.horizontal_top(|ui| {
         ui.allocate_ui(egui::vec2(room * (1.0 - PLOT), height), |ui| {
-            ScrollArea::both().auto_shrink(false).show(ui, |ui| table(ui, &rows, branch, state, asked));
+            ScrollArea::both().auto_shrink(false).show(ui, |ui| table(ui, &rows, (branch, scrolls), state, asked));
         });
         ui.vertical(|ui| radius(ui, branch, found, asked));
     });
@@ -99,7 +101,13 @@ fn head(ui: &mut Ui, state: &State, options: ViewOptions, is_narrow: bool, asked
     });
 }
 
-fn table(ui: &mut Ui, rows: &[&BranchCalibre], chosen: &BranchCalibre, state: &State, asked: &mut Vec<Action>) {
+fn table(
+    ui: &mut Ui,
+    rows: &[&BranchCalibre],
+    (chosen, scrolls): (&BranchCalibre, bool),
+    state: &State,
+    asked: &mut Vec<Action>,
+) {
     let safe = state.safe();
     ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), 18.0);
     ui.spacing_mut().button_padding.y = 1.0;
@@ -121,6 +129,9 @@ fn table(ui: &mut Ui, rows: &[&BranchCalibre], chosen: &BranchCalibre, state: &S
                 }
                 let label = ui.selectable_label(branch.number == chosen.number, &cell);
                 name(&label, Role::Button, &cell);
+                if scrolls && branch.number == chosen.number {
+                    label.scroll_to_me(Some(egui::Align::Center));
+                }
                 if label.clicked() {
                     asked.push(Action::Vessels(Asked::Select(branch.number)));
                     asked.extend(match branch.reduced.largest_change {
@@ -135,12 +146,16 @@ fn table(ui: &mut Ui, rows: &[&BranchCalibre], chosen: &BranchCalibre, state: &S
 }
 
 fn radius(ui: &mut Ui, branch: &BranchCalibre, found: &Certificate, asked: &mut Vec<Action>) {
+    for stretch in branch.uneven().into_iter().flatten() {
+        let told = say!("vessels-uneven", stretch = tell(&stretch.text()), reference = tell(&stretch.reference()));
+        ui.add(egui::Label::new(RichText::new(told).small()).wrap());
+    }
     let Some(i) = plot::show(ui, branch, found.tolerance_percent) else { return };
     asked.extend(go_to_station(branch, i));
 }
 
 /// A look at station `i` of a branch, if there is such a station.
-fn go_to_station(branch: &BranchCalibre, i: usize) -> Option<Action> {
+pub(super) fn go_to_station(branch: &BranchCalibre, i: usize) -> Option<Action> {
     let (at_mm, abscissa_mm) = (*branch.at_mm.get(i)?, f64::from(branch.abscissas_mm[i]));
     let percent = branch.reduced.changes_percent.get(i).copied().flatten().map(f64::from);
     Some(match percent {

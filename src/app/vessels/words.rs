@@ -7,9 +7,10 @@ use crate::say;
 use crate::vessel::certificate::{BranchCalibre, Certificate, OnSurface, StationStatus, Verdict};
 
 /// Heads of the columns, and what they say.
-pub(super) const COLUMNS: [(Key, Key); 9] = [
+pub(super) const COLUMNS: [(Key, Key); 10] = [
     (Key("vessels-column-vessel"), Key("vessels-column-vessel-help")),
     (Key("vessels-column-verdict"), Key("vessels-column-verdict-help")),
+    (Key("vessels-column-measured"), Key("vessels-column-measured-help")),
     (Key("vessels-column-reduced"), Key("vessels-column-reduced-help")),
     (Key("vessels-column-smoothed"), Key("vessels-column-smoothed-help")),
     (Key("vessels-column-safe"), Key("vessels-column-safe-help")),
@@ -29,6 +30,9 @@ pub(in crate::app) fn verdict(state: &State) -> String {
             let (kept, changed) = (count(Verdict::Kept), count(Verdict::Changed));
             match (kept, changed) {
                 (0, 0) => tell(&Verdict::NotMeasured),
+                (_, 0) if !found.coverage.is_enough() => {
+                    say!("vessels-kept-short", percent = decimal(found.coverage.percent().floor(), 0))
+                }
                 (_, 0) => say!("vessels-all-kept-short", tolerance = found.tolerance_percent),
                 _ => say!("vessels-some-changed-short", changed = changed, all = kept + changed),
             }
@@ -46,6 +50,7 @@ pub(super) fn cells(branch: &BranchCalibre, safe: Option<&Safe>) -> [String; COL
     [
         tell(&branch.label()),
         tell(&branch.verdict),
+        format!("{} %", decimal(branch.coverage().percent().floor(), 0)),
         percent(&branch.reduced),
         percent(&branch.smoothed),
         match safe.map(|of| (of.changed_by_smoothing, of.kept_to_percent)) {
@@ -53,7 +58,7 @@ pub(super) fn cells(branch: &BranchCalibre, safe: Option<&Safe>) -> [String; COL
             _ => none(),
         },
         radius.map_or_else(none, |radius| tell(&radius.text())),
-        branch.most_uneven().map_or_else(none, |found| tell(&found.text())),
+        branch.uneven_text().map_or_else(none, |found| tell(&found)),
         decimal(branch.length_mm, 1),
         branch.tortuosity.map_or_else(none, |tortuosity| decimal(tortuosity, 2)),
     ]
@@ -82,6 +87,7 @@ pub(super) fn text(name: &str, found: &Certificate, safe: Option<&Safe>) -> Stri
     let heads: Vec<String> = COLUMNS.iter().map(|(head, _)| head.say()).collect();
     let rows: String = found.branches.iter().map(|branch| line(&cells(branch, safe))).collect();
     let first = say!("vessels-table", name = name, tolerance = found.tolerance_percent);
+    let first = format!("{first}, {}", say!("vessels-table-measured", coverage = tell(&found.coverage.text())));
     format!("{first}\n{}{rows}{}\n", line(&heads), say!("report-not-clinical"))
 }
 
@@ -93,10 +99,17 @@ mod tests {
     #[test]
     fn a_row_has_numbers_with_units_and_dashes_for_what_is_not_known() {
         let row = cells(&branch(3, None), None);
-        assert_eq!(row, ["branch 3", "not measured", "–", "+0.0 %", "–", "1.50 (1.00 to 2.00)", "–", "12.3", "–"]);
+        let numbers = ["0 %", "–", "+0.0 %", "–", "1.50 (1.00 to 2.00)", "–", "12.3", "–"];
+        assert_eq!(
+            (&row[..2], &row[2..]),
+            (&["branch 3", "not measured"].map(str::to_owned)[..], &numbers.map(str::to_owned)[..])
+        );
         let found = certificate(&[Some(-4.0)]).unwrap();
         let text = text("a.stl", &found, None);
         assert_eq!(text.lines().count(), 4);
-        assert!(text.contains("branch 1\tchanged\t-4.0 %") && text.contains("Not for clinical decisions"), "{text}");
+        assert!(
+            text.contains("branch 1\tchanged\t90 %\t-4.0 %") && text.contains("Not for clinical decisions"),
+            "{text}"
+        );
     }
 }

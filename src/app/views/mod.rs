@@ -101,6 +101,8 @@ pub struct Views {
     refused: Option<Revision>,
     device: Option<egui_wgpu::RenderState>,
     aspect: f32,
+    /// Where the first view that is shown stands, in points.
+    first: Rect,
     /// The camera as it was last fitted, while the user has not moved it.
     fitted: Option<Camera>,
     /// The way to a place that the camera is on.
@@ -129,6 +131,7 @@ impl Views {
             refused: None,
             device: None,
             aspect: 1.0,
+            first: Rect::NOTHING,
             fitted: None,
             flight: None,
             flies: false,
@@ -247,6 +250,11 @@ impl Views {
         self.fit(document, keep);
     }
 
+    /// Where the first view that is shown stands, in points.
+    pub(super) fn first(&self) -> Rect {
+        self.first
+    }
+
     /// Width of the first view over its height.
     pub(super) fn aspect(&self) -> f32 {
         self.aspect
@@ -346,6 +354,7 @@ impl Views {
         } else {
             area.split_left_right_at_fraction(0.5)
         };
+        self.first = first;
         self.take_shape(first, 1, document, keep);
         let shaded = if self.options.flat { Look::Flat } else { Look::Shaded };
         let lines = if self.options.see_through { Look::SeeThrough } else { Look::Wireframe };

@@ -16,7 +16,7 @@ use crate::app::{arrays, classes, deviation, halo, mending, overlay, spoken, the
 use crate::language::decimal;
 use crate::mesh::Bounds;
 use crate::pipeline::settings::Keep;
-use crate::render::{Camera, ColourMap, Look, pick};
+use crate::render::{Camera, ColourMap, Look, Style, pick};
 use crate::say;
 
 /// The target of the surface as it was opened, behind the first view; that behind the second is the next.
@@ -273,15 +273,16 @@ pub(in crate::app) fn legend(map: ColourMap, colours: Colours) -> overlay::Legen
         Colours::Deviation(shown) => return deviation::legend(map, shown),
         Colours::None | Colours::Classes | Colours::Array(_) => (String::new(), "", 3, String::new()),
     };
-    let is_open_below = colours == Colours::Calibre;
+    let is_calibre = colours == Colours::Calibre;
     overlay::Legend {
         map,
         title,
         unit,
         decimals,
         is_open: true,
-        is_open_below,
+        is_open_below: is_calibre,
         note,
+        patch: is_calibre.then_some(Style::UNKNOWN),
         is_diverging: false,
         has_histogram: false,
     }

@@ -11,6 +11,7 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use eframe::App as _;
+use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use lumen::app::{LastingApp, LumenApp, PlatformEvent, State};
@@ -275,6 +276,14 @@ pub fn open(harness: &mut Harness<'_, LumenApp>, memory: &RefCell<Memory>, name:
     memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: name.to_owned(), bytes });
     harness.run_steps(20);
     settle_wholly(harness);
+}
+
+/// Unfolds a section of the panel: a step, or what is advanced in it.
+pub fn unfold(harness: &mut Harness<'_, LumenApp>, section: &str) {
+    harness.get_by_role_and_label(Role::DisclosureTriangle, section).scroll_to_me();
+    harness.run_steps(12);
+    harness.get_by_role_and_label(Role::DisclosureTriangle, section).click();
+    harness.run_steps(12);
 }
 
 /// Whether some text that is shown holds this one.

@@ -80,7 +80,7 @@ app-colour-classes-help = Wofür die Dezimierung jeden Eckpunkt hält: einfach, 
 app-feature-lines = Formkanten, offene Enden
 app-feature-lines-help = Kanten, die schärfer sind als der Kantenwinkel, wie die Dezimierung sie fand, und der Rand
 app-present = Präsentieren
-app-present-help = Für einen Beamer: größere Schrift, gedrückte Tasten werden gezeigt, die Seitenleiste ist verborgen (P)
+app-present-help = Für einen Beamer: größere Schrift, gedrückte Tasten werden gezeigt, von der Seitenleiste bleiben die Regler (P)
 app-language = Sprache
 app-language-system = Wie das System
 
@@ -114,6 +114,18 @@ app-panel-low = Höhe der Leiste: niedrig
 app-panel-half = Höhe der Leiste: halb
 app-panel-full = Höhe der Leiste: voll
 app-panel-help = Nach oben oder unten ziehen; Tippen oder eine Pfeiltaste führt zur nächsten Höhe
+
+## Over the sample, until a file is opened
+
+# Followed by a button with the next message; they read as one sentence.
+app-invite-drop = Ein Gefäß hier ablegen oder
+app-invite-open = eines öffnen
+# On the button where a finger points, which drops nothing.
+app-invite-open-alone = Ein Gefäß öffnen
+app-invite-open-help = Eine Datei wählen: nichts verlässt dieses Gerät
+# For assistive tools, and its tooltip.
+app-invite-close = Einladung schließen
+app-invite-close-help = Das Beispiel bleibt offen
 
 ## The sheet of keys
 
@@ -247,7 +259,7 @@ app-pair-not-written = Nichts wurde gespeichert: { $name } konnte nicht geschrie
 
 ## Presenting
 
-app-presenting = Präsentation: größere Schrift, Tasten werden gezeigt, die Seitenleiste ist verborgen. P oder Esc beendet sie.
+app-presenting = Präsentation: größere Schrift, Tasten werden gezeigt, von der Seitenleiste bleiben die Regler. P oder Esc beendet sie.
 
 ## Settings for others
 
@@ -288,9 +300,18 @@ app-measure-section = { $area } mm², { $least } bis { $largest } mm breit, als 
 app-measured-opened = Wie geöffnet
 app-measured-opened-vessel = Wie geöffnet, { $vessel }
 app-measured-opened-fork = Wie geöffnet, { $vessel }, an einer Gabelung
-app-measured-level = Bei { $count } Dreiecken
-app-measured-level-vessel = Bei { $count } Dreiecken, { $vessel }
-app-measured-level-fork = Bei { $count } Dreiecken, { $vessel }, an einer Gabelung
+app-measured-level = { $count ->
+    [one] Bei { $count } Dreieck
+   *[other] Bei { $count } Dreiecken
+}
+app-measured-level-vessel = { $count ->
+    [one] Bei { $count } Dreieck, { $vessel }
+   *[other] Bei { $count } Dreiecken, { $vessel }
+}
+app-measured-level-fork = { $count ->
+    [one] Bei { $count } Dreieck, { $vessel }, an einer Gabelung
+   *[other] Bei { $count } Dreiecken, { $vessel }, an einer Gabelung
+}
 
 ## What comes back at the next start
 

@@ -66,9 +66,9 @@ devices-roll-pad-help = Zur Seite ziehen dreht den Draht (A, D)
 ## Die Kraft eines Geräts
 
 devices-felt-as = Kraft
-devices-felt-as-help = Mit welchem Teil seiner größten Kraft das Gerät 1 N längs des Drahts spüren lässt
+devices-felt-as-help = Mit welchem Teil seiner größten Kraft das Gerät 1 N längs des Drahts spüren lässt
 devices-torque-as = Moment
-devices-torque-as-help = Mit welchem Teil seiner größten Kraft das Gerät 1 N mm um den Draht spüren lässt
+devices-torque-as-help = Mit welchem Teil seiner größten Kraft das Gerät 1 N mm um den Draht spüren lässt
 devices-stop-force = Kraft beenden
 devices-stop-force-help = Das Gerät lässt sofort los (Esc)
 devices-ask-arm-force = Kraft freigeben...
@@ -80,7 +80,7 @@ devices-not-now = Nicht jetzt
 devices-felt = Gespürt
 devices-felt-help = Was die Hand an der Schleuse hält
 devices-latency = Latenz
-devices-latency-help = Vom Eingabe- bis zum Ausgabereport: die Hälfte, 95 % und 99 % dauern nicht länger
+devices-latency-help = Vom Eingabe- bis zum Ausgabereport: die Hälfte, 95 % und 99 % dauern nicht länger
 devices-save-latency = Latenz speichern
 devices-save-latency-help = Speichert diese Zeiten, den Namen des Geräts und die Version von Lumen als kleine Tabelle, und sonst nichts
 devices-ended-hidden = Die Kraft wurde beendet, als das Fenster verlassen wurde.
@@ -103,7 +103,7 @@ devices-leave-still-help = Das Gamepad vibriert nicht
 ## Ein Ton statt einer Kraft
 
 devices-sound = Ton der Kraft
-devices-sound-help = Ein Ton, der umso höher und lauter ist, je mehr Kraft die Hand an der Schleuse hält, bis 0,1 N oder 1 N mm
+devices-sound-help = Ein Ton, der umso höher und lauter ist, je mehr Kraft die Hand an der Schleuse hält, bis 0,1 N oder 1 N mm
 devices-no-sound = Die Kraft ist hier nicht zu hören: Das Desktop-Programm spielt sie unter Linux mit pw-play, paplay oder aplay, ein Browser mit Web Audio.
 
 ## Warum ein Gerät nicht bedient wird, im Browser

@@ -66,8 +66,8 @@ lesson-stair-steps-text =
     show: split
     look: die Linie in der linken Ansicht; ziehen Sie daran. Links davon die Oberfläche wie geöffnet, rechts davon geglättet.
     ask: Wie weit hat sich ein Eckpunkt bewegt, verglichen mit der Größe eines Voxels?
-    answer: Auf dem größten Teil der Wand etwa ein halbes Voxel: So weit entfernt von der wahren Wand endet dort eine Terrasse. Farbe
-      nach Abweichung zeigt es, mit dem Haken bei „Vom Original“.
+    answer: Auf dem größten Teil der Wand weniger als ein halbes Voxel: Weiter entfernt von der wahren Wand endet dort keine Terrasse.
+      Farbe nach Abweichung zeigt es, mit dem Haken bei „Vom Original“.
 
     step: Warum es eine Simulation stört
     text: Ein Führungsdraht spürt jede Terrasse als Kante. Reibung wird verlangt, wo beim Patienten keine ist, und die
@@ -91,7 +91,7 @@ lesson-pass-band-text =
     look: die Filterantwort in Schritt 2 der Seitenleiste, eine gerade Linie bei 100 %.
 
     step: Nur was lang ist
-    text: Bei 0,1 gehen die kürzesten Wellen verloren. Der Satz unter Fenster sagt, bis zu welcher Länge in Millimetern
+    text: Bei 0,1 gehen die kürzesten Wellen verloren. Der Satz unter Stärke sagt, bis zu welcher Länge in Millimetern
       von einer Welle die Hälfte übrig ist.
     settings: pass-band=0.1 reduction=0 adapt=no guard=no
     view: anterior
@@ -101,16 +101,16 @@ lesson-pass-band-text =
     answer: Weniger. Das Durchlassband ist der größte Eigenwert, der durchgeht; ein kleineres lässt nur längere Wellen.
 
     step: Die Wahl der Veröffentlichung
-    text: Bei 0,01 mit 100 Iterationen sind die Terrassen auf dieser Oberfläche fort, und die Form bleibt. Die Zahl hat keine Einheit:
-      Auf einem feineren Netz bedeutet dasselbe 0,01 kürzere Wellen.
+    text: Bei 0,01 mit 100 Iterationen sind die Terrassen auf dieser Oberfläche fort, und die Kaliber bleiben bis auf etwa 3 %. Die
+      Zahl hat keine Einheit: Auf einem feineren Netz bedeutet dasselbe 0,01 kürzere Wellen.
     settings: pass-band=0.01 reduction=0 adapt=no guard=no
     view: anterior
     show: split
     look: die Länge im Satz, neben dem Umfang des dünnsten Gefäßes (gepunktet in der Filterantwort).
 
     step: Zu weit
-    text: Bei 0,001 beginnen Wellen zu verschwinden, die so lang sind wie der Weg um ein Gefäß. Das ist kein Rauschen mehr: Es ist das
-      Gefäß.
+    text: Bei 0,001 verschwinden Wellen, die so lang sind wie der Weg um ein Gefäß: Die Nierenarterien werden zugezogen, die
+      Beckenarterien verlieren die Hälfte ihres Kalibers. Das ist kein Rauschen mehr: Es ist das Gefäß.
     settings: pass-band=0.001 iterations=200 reduction=0 adapt=no guard=no
     view: anterior
     show: calibre
@@ -147,9 +147,9 @@ lesson-windows-text =
     settings: pass-band=0.1 iterations=30 window=nuttall reduction=0 adapt=no guard=no
     view: anterior
     show: split
-    look: die Kurve, während Sie in Schritt 2 ein Fenster nach dem anderen wählen.
+    look: die Kurve, während Sie in Schritt 2 unter Erweitert ein Fenster nach dem anderen wählen.
     ask: Welches der vier hat beim selben Grad den steilsten Abfall?
-    answer: Hamming, mit Hanning daneben. Je kleiner die Welligkeit, desto breiter der Abfall.
+    answer: Hamming, dann Hanning. Blackman und Nuttall sind weniger wellig und fallen weniger steil.
 
 lesson-shrinkage = Schrumpfung
 lesson-shrinkage-text =
@@ -225,13 +225,13 @@ lesson-decimation-text =
       durch ihre Anzahl.
 
     step: Was sich nie ändert
-    text: Kein Rohr wird eingeschnürt, kein offenes Ende geschlossen, keine zwei Gefäße verbunden, und kein Dreieck schneidet danach ein
-      anderes.
-      Wo nichts mehr gehen darf, endet der Lauf.
+    text: Kein offenes Ende wird geschlossen, keine zwei Gefäße werden verbunden, und kein Dreieck schneidet danach ein anderes. Ein
+      Kaliber kann sich ändern: Ab 99,8 % ist ein Gefäß eingeschnürt, und das Urteil sagt, wo. Wo nichts mehr gehen darf, endet der
+      Lauf.
     settings: reduction=99.9
     view: anterior
     show: flat
-    look: jeder Ast ist noch da, mit einem offenen Ende aus drei oder mehr Kanten.
+    look: jedes offene Ende ist noch da, mit drei oder mehr Kanten; und die Stelle, die eingeschnürt ist.
 
 lesson-wire = Was ein Draht spürt
 lesson-wire-text =

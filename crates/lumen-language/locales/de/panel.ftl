@@ -16,12 +16,19 @@ panel-reset = { $name } zurücksetzen
 panel-show = Zeigen
 # On a button: sets what was found.
 panel-go-there = Übernehmen
+# The head of what is folded up in a step.
+panel-advanced = Erweitert
+panel-advanced-help = Was selten anders einzustellen ist
+# For assistive tools: $step is "Smooth" or "Reduce".
+panel-advanced-of = Erweitert: { $step }
 
 ## Step 1: the surface
 
 panel-surface = Oberfläche
 panel-surface-does = Das größte zusammenhängende Stück bleibt.
 panel-surface-none = Eine Oberfläche öffnen oder eine Datei hierher ziehen.
+# Beside the name of step 1 while it is folded: keep it short.
+panel-surface-to-mend = Reparatur nötig
 panel-in-file = Dreiecke in Datei
 panel-in-file-help = Wie die Datei sie enthält, Polygone zerlegt
 panel-kept = Behalten
@@ -82,8 +89,14 @@ panel-array-identifiers = { $on ->
    *[triangles] { $name }: Labels auf Dreiecken, { $kind }
 }
 panel-array-labels = { $on ->
-    [vertices] { $name }: { $count } Labels auf Eckpunkten, { $kind }
-   *[triangles] { $name }: { $count } Labels auf Dreiecken, { $kind }
+    [vertices] { $name }: { $count ->
+        [one] { $count } Label auf Eckpunkten
+       *[other] { $count } Labels auf Eckpunkten
+    }, { $kind }
+   *[triangles] { $name }: { $count ->
+        [one] { $count } Label auf Dreiecken
+       *[other] { $count } Labels auf Dreiecken
+    }, { $kind }
 }
 panel-array-scalar = { $on ->
     [vertices] { $name }: Skalar auf Eckpunkten, { $kind }
@@ -96,7 +109,10 @@ panel-array-components = { $on ->
 # $array is one of the messages above.
 panel-array-range = { $array }, { $least } bis { $most }
 # Below the labels that the legend of an array names.
-panel-labels-more = und { $count } weitere
+panel-labels-more = { $count ->
+    [one] und { $count } weiteres
+   *[other] und { $count } weitere
+}
 
 ## Step 1: mending
 
@@ -190,7 +206,7 @@ panel-adapt-help = Glättet dünne Gefäße weniger, damit jedes sein Kaliber be
 panel-guard = Ohne Schnitte
 panel-guard-help = Glättet weniger, wo Dreiecke sonst durch andere gezogen würden: an Falten und zwischen Gefäßen.
 panel-volume-held = Volumen erhalten
-panel-volume-held-help = Gibt dort zurück, was die Glättung abträgt: offene Enden verschlossen, auf 0,01 % genau.
+panel-volume-held-help = Gibt dort zurück, was die Glättung abträgt: offene Enden verschlossen, auf 0,01 % genau.
 panel-smoothed-less = { $count ->
     [one] An { $count } Eckpunkt weniger geglättet: ohne Schnitte.
    *[other] An { $count } Eckpunkten weniger geglättet: ohne Schnitte.
@@ -279,9 +295,11 @@ panel-auto-deciding = Automatisch: es wird bestimmt, wie weit es sicher ist
 panel-auto-help = Reduziert um 90 % oder so weit, wie jedes Gefäß sein Kaliber auf { $tolerance } % genau behält und keines eingeschnürt wird, je nachdem, was weniger ist. Der Regler setzt stattdessen eine Zahl.
 # Followed by a rate: reduction up to it changes no vessel too much.
 panel-safe = Sicher bis
-panel-safe-help = Bis hier behält jedes messbare Gefäß sein Kaliber auf { $tolerance } % genau, keines wird eingeschnürt, und keine Dreiecke schneiden sich, die es nicht schon taten.
+panel-safe-help = Bis hier behält jedes messbare Gefäß sein Kaliber auf { $tolerance } % genau, keines wird eingeschnürt, und keine Dreiecke schneiden sich, die es nicht schon taten.
 # $why is a part of a sentence.
 panel-safe-refused = Hier gibt es keine solche Rate: { $why }.
+panel-kept-to = Erhalten bis
+panel-safe-rests = Gemessen über { $coverage }.
 panel-safe-changed = Äste, die schon die Glättung stärker ändert, zählen nicht: { $count }.
 panel-safe-go-help = Setzt die Reduktion auf die Marke unter dem Regler
 panel-wanted = Anzahl Dreiecke
@@ -303,7 +321,11 @@ panel-error-mm = Fehler, mm
 # Beside lines of the picture.
 panel-error-now = jetzt
 panel-error-safe = sicher
-panel-error-is = Fehler über Dreiecken: { $error } mm bei { $count } Dreiecken
+panel-error-kept = erhalten
+panel-error-is = { $count ->
+    [one] Fehler über Dreiecken: { $error } mm bei { $count } Dreieck
+   *[other] Fehler über Dreiecken: { $error } mm bei { $count } Dreiecken
+}
 panel-error-schroeder = Fehler: der des Verfahrens, der seine Schritte ordnet. Quadratisches Mittel des Abstands von den Ebenen, für die ein Eckpunkt stand; an Kanten und offenen Enden mindestens der Abstand von deren Linie. Keine Schranke: Die Punkte sind gemessen.
 panel-error-quadric = Fehler: der des Verfahrens, der seine Schritte ordnet. Quadratisches Mittel des Abstands des neuen Eckpunkts von den Ebenen, für die er steht. Keine Schranke: Die Punkte sind gemessen.
 panel-error-other = Grau: { $method }, von derselben Oberfläche.
@@ -311,7 +333,10 @@ panel-error-other-none = { $method } steht daneben, sobald es einmal gewählt wa
 # Beside the pointer, in three lines; $curve is what the curve is of.
 panel-error-at =
     { $curve }
-    { $error } mm bei { $count } Dreiecken
+    { $error } mm bei { $count ->
+        [one] { $count } Dreieck
+       *[other] { $count } Dreiecken
+    }
     Klicken, um dorthin zu gehen
 
 ## The result

@@ -19,7 +19,10 @@ report-no-fingerprint = keine: nicht aus einer Datei
 report-format = Format
 report-format-in = { $format }, in { $unit }
 report-opened = Geöffnet
-report-counts = { $triangles } Dreiecke in { $pieces ->
+report-counts = { $triangles ->
+    [one] { $triangles } Dreieck
+   *[other] { $triangles } Dreiecke
+} in { $pieces ->
     [one] einem Stück
    *[other] { $pieces } Stücken
 }
@@ -54,7 +57,10 @@ report-reduction = Reduktion
 report-target-reduction = { $percent } % der Dreiecke
 report-target-auto = { $percent } % der Dreiecke, automatisch gewählt
 report-target-auto-safe = { $percent } % der Dreiecke, automatisch gewählt: so weit wie sicher
-report-target-triangles = auf { $count } Dreiecke
+report-target-triangles = { $count ->
+    [one] auf { $count } Dreieck
+   *[other] auf { $count } Dreiecke
+}
 report-target-deviation = innerhalb von { $most } mm
 report-method = Verfahren
 report-allowed = Zulässige Kaliberänderung
@@ -72,7 +78,6 @@ report-half-gain = Halbe Verstärkung
 report-crossing = Selbstschnitte
 report-smallest-lumen = Engstes Lumen
 report-measured = Gefäße gemessen
-report-measured-part = { $percent } % ihrer Länge
 report-output-fingerprint = Oberflächen-Prüfsumme
 
 ## Spalten und Zellen
@@ -82,6 +87,8 @@ report-radius = Radius wie geöffnet, mm
 report-diameter = Durchmesser
 report-by-area = Fläche
 report-diameter-mm = Durchmesser, mm
+# Wo entlang des Gefäßes die Referenz gemessen ist.
+report-reference-at = Referenz bei, mm
 report-at-mm = Bei, mm
 report-diameter-of = { $diameter } von { $reference }
 report-measure = Messung

@@ -13,7 +13,7 @@ scan-spacing-help = Zwischen Spalten, Zeilen und Schichten
 scan-values = Werte
 scan-values-range = { $low } bis { $high }{ $unit }
 scan-threshold = Schwelle
-scan-threshold-help = Was diesen Wert und mehr hat, ist das Gefäß; kontrastierte Gefäße im CT haben 150 bis 500 HU.
+scan-threshold-help = Was diesen Wert und mehr hat, ist das Gefäß; kontrastierte Gefäße im CT haben 150 bis 500 HU.
 scan-histogram = Histogramm mit der Schwelle
 scan-vessel = Gefäß
 scan-vessel-help = Welches Label der Maske das Gefäß ist
@@ -34,7 +34,10 @@ scan-across-help = Wie die gezeigte Schicht liegt
 scan-slice = Schicht
 scan-preview = Vorschau
 scan-preview-help = Die Oberfläche in verringerter Auflösung
-scan-triangles = { $count } Dreiecke
+scan-triangles = { $count ->
+    [one] { $count } Dreieck
+   *[other] { $count } Dreiecke
+}
 scan-preview-coarse = Die Vorschau hat ein Voxel für je { $block }, sobald etwas davon innen liegt: Dünne Gefäße sehen weiter aus, als sie sind.
 scan-cancel = Abbrechen
 scan-cancel-help = Esc

@@ -3,7 +3,10 @@
 ## Der Streifen über den Ansichten
 
 verdict-safe = Für Simulationen geeignet
-verdict-nothing-wrong = Kein Fehler gefunden
+verdict-kept = Erhalten, wo gemessen
+verdict-none-measured = Kein Gefäß gemessen
+# Eine Überschrift, und wie viel gemessen ist: "82 % der Länge, 28 von 33 Gefäßen".
+verdict-covered = { $head }: { $coverage }
 verdict-not-measured = Nicht gemessen
 verdict-coming = Wird gemessen...
 verdict-to-look-at = { $count ->
@@ -14,6 +17,8 @@ verdict-follows = Kaliber und Form folgen.
 # Beside "Being measured..." while a level is shown that a finer one may follow.
 verdict-auto-follows = Es wird bestimmt, wie weit es sicher ist: die Reduktion geht vielleicht noch zurück.
 verdict-stopped = Es wurde abgebrochen, oder die Berechnung ist abgestürzt: zum Fortfahren eine Einstellung ändern.
+# $text is what is said of the surface, a sentence: that it is a sample.
+verdict-sample = Beispiel: { $text }
 verdict-what-to-do = Abhilfe
 verdict-more = { $count ->
     [one] { $count } weiterer
@@ -25,6 +30,8 @@ verdict-notes = { $count ->
 }
 verdict-show-vessels = Gefäße zeigen
 verdict-show-vessels-help = Was aus jedem wurde, und wo (V)
+verdict-show-unmeasured = Ungemessenes
+verdict-show-unmeasured-help = Öffnet die Gefäße und geht dorthin, wo nicht gemessen ist; die Oberfläche ist dort grau
 verdict-remedy-help = Würde helfen; kann rückgängig gemacht werden
 verdict-show-place = Zeigen
 verdict-show-place-help = Geht dorthin, wo es ist
@@ -88,6 +95,7 @@ verdict-crossing-before = { $count ->
     [one] { $count } Dreieck schneidet andere; vor der Reduktion waren es { $before }.
    *[other] { $count } Dreiecke schneiden andere; vor der Reduktion waren es { $before }.
 }
+verdict-narrower = Wie geöffnet ist { $name } über { $length } mm um { $percent } % enger als zu beiden Seiten: { $reference }.
 verdict-few-iterations = Zu wenige Iterationen für dieses Durchlassband: Zum Glätten braucht es mehr.
 verdict-shortfall-topology = Weiter als auf { $reached } Dreiecke lässt sich diese Oberfläche nicht reduzieren (gewünscht waren { $wanted }): Weiteres Entfernen würde ein offenes Ende schließen oder ein Gefäß einschnüren
 verdict-shortfall-geometry = Weiter als auf { $reached } Dreiecke lässt sich diese Oberfläche nicht reduzieren (gewünscht waren { $wanted }): Weiteres Entfernen würde die Oberfläche auf sich selbst falten
@@ -98,6 +106,7 @@ verdict-shortfall-complex = Weiter als auf { $reached } Dreiecke lässt sich die
 verdict-place-hole = Loch
 verdict-place-here = Hier
 verdict-place-narrowed = Eingeschnürt
+verdict-place-narrower = { $percent } % enger
 verdict-place-pinched = eingeschnürt
 verdict-place-lost = verloren
 verdict-place-shut = Zugezogen
@@ -108,6 +117,7 @@ verdict-safe-none-kept = Schon die Glättung ändert jedes messbare Gefäß
 verdict-safe-none-measured = Kein Gefäß ist messbar
 verdict-safe-changed = Bei { $rate } % ändert sich { $name } um { $by } %, bei ({ $x }; { $y }; { $z })
 verdict-safe-unmeasured = Bei { $rate } % ist { $name } nicht mehr messbar
+verdict-safe-uncovered = Bei { $rate } % sind nur noch { $percent } % der Länge der Gefäße messbar
 
 ## Der Filter
 

@@ -33,6 +33,8 @@ vessels-column-vessel = Gefäß
 vessels-column-vessel-help = Klicken zeigt den Radius entlang des Gefäßes und geht dorthin, wo es sich am meisten ändert
 vessels-column-verdict = Urteil
 vessels-column-verdict-help = Ob es nach der Reduktion sein Kaliber behält, im Rahmen der zulässigen Änderung
+vessels-column-measured = Gemessen
+vessels-column-measured-help = Der Teil seiner Länge, auf dem es gemessen ist: Anderswo sagt das Urteil nichts
 vessels-column-reduced = Reduziert
 vessels-column-reduced-help = Die größte Änderung seines Radius nach der Reduktion, gegenüber der Oberfläche wie geöffnet
 vessels-column-smoothed = Geglättet
@@ -54,7 +56,14 @@ vessels-narrower = { $percent } % enger
 vessels-wider = { $percent } % weiter
 vessels-narrower-over = { $percent } % enger über { $length } mm, bei { $at } mm
 vessels-wider-over = { $percent } % weiter über { $length } mm, bei { $at } mm
+vessels-uneven-both = { $narrower }; { $wider }
+# Der Durchmesser, die Referenz, und an welchen Stellen entlang des Gefäßes sie gemessen ist.
+vessels-reference-between = { $diameter } von { $reference } mm, nach den Durchmessern bei { $from } und { $to } mm
+vessels-reference-at = { $diameter } von { $reference } mm, nach dem Durchmesser bei { $at } mm
+vessels-reference = { $diameter } von { $reference } mm
 vessels-table = { $name }, zulässige Änderung { $tolerance } %
+# Folgt darauf nach einem Komma.
+vessels-table-measured = gemessen über { $coverage }
 
 ## Warum ein Gefäß nirgends gemessen ist
 
@@ -67,6 +76,8 @@ vessels-at-ends = Es ist zu kurz: Es liegt ganz an Enden oder Gabelungen.
 ## Der Radius entlang eines Gefäßes
 
 vessels-radius-head = Radius entlang von { $name }:
+# Darüber: ein Abschnitt, der enger oder weiter ist als zu beiden Seiten, und womit er verglichen ist.
+vessels-uneven = { $stretch }: { $reference }
 vessels-radius-along = Radius entlang von { $name }
 vessels-as-opened = wie geöffnet
 vessels-smoothed = geglättet
@@ -83,6 +94,8 @@ vessels-hover =
 ## Was aus ihnen wurde
 
 vessels-all-kept-short = erhalten, auf { $tolerance } %
+# Wo zu wenig gemessen ist.
+vessels-kept-short = erhalten über { $percent } %
 vessels-some-changed-short = { $changed } von { $all } verändert
 vessels-place = { $name }: { $percent } %
 vessels-not-here = { $name }: hier nicht gemessen
@@ -93,15 +106,30 @@ vessels-all-kept = { $count ->
     [one] Das Gefäß behält sein Kaliber auf { $tolerance } % genau.
    *[other] Alle { $count } Gefäße behalten ihr Kaliber auf { $tolerance } % genau.
 }
+vessels-kept-of = { $count ->
+    [one] { $count } von { $all } Gefäßen wurde gemessen: Es behält sein Kaliber auf { $tolerance } % genau.
+   *[other] { $count } von { $all } Gefäßen wurden gemessen: Sie behalten ihr Kaliber auf { $tolerance } % genau.
+}
 vessels-changed = { $changed ->
-    [one] { $changed } von { $all } Gefäßen ändert sich um mehr als { $tolerance } %.
-   *[other] { $changed } von { $all } Gefäßen ändern sich um mehr als { $tolerance } %.
+    [one] { $changed } von { $all } gemessenen Gefäßen ändert sich um mehr als { $tolerance } %.
+   *[other] { $changed } von { $all } gemessenen Gefäßen ändern sich um mehr als { $tolerance } %.
 }
 vessels-changed-most = { $changed ->
-    [one] { $changed } von { $all } Gefäßen ändert sich um mehr als { $tolerance } %, am meisten { $name }: { $by } %.
-   *[other] { $changed } von { $all } Gefäßen ändern sich um mehr als { $tolerance } %, am meisten { $name }: { $by } %.
+    [one] { $changed } von { $all } gemessenen Gefäßen ändert sich um mehr als { $tolerance } %, am meisten { $name }: { $by } %.
+   *[other] { $changed } von { $all } gemessenen Gefäßen ändern sich um mehr als { $tolerance } %, am meisten { $name }: { $by } %.
 }
-vessels-little = Das gilt für { $percent } % ihrer Länge: Der Rest liegt an Enden oder Gabelungen oder ist zu grob.
+vessels-measured-over = Gemessen über { $percent } % der Länge; nicht über { $parts }.
+# Nach einer Überschrift oder einem Doppelpunkt.
+vessels-coverage = { $percent } % der Länge, { $measured } von { $all ->
+    [one] { $all } Gefäß
+   *[other] { $all } Gefäßen
+}
+# Teile der Länge, aufgezählt nach "nicht über".
+vessels-parts = { $first }, { $rest }
+vessels-part-ends = { $percent } % an Enden
+vessels-part-forks = { $percent } % an Gabelungen
+vessels-part-thin = { $percent } % zu grob
+vessels-part-unclear = { $percent } % ohne genau einen geschlossenen Umriss
 vessels-by-smoothing = Schon die Glättung verändert { $count } davon so stark.
 vessels-unknown = { $count ->
     [one] Eines ist zu kurz oder zu grob für eine Messung.

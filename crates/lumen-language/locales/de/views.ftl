@@ -25,7 +25,7 @@ views-axes-unknown = Achsen unbekannt
 ## Die Legende
 
 views-calibre = Kaliberänderung
-views-calibre-note = Ohne Farbe: nicht gemessen
+views-calibre-note = nicht gemessen
 views-peak-force = Größte Kraft
 views-legend-more = { $value } und mehr
 views-legend-less = { $value } und weniger
@@ -108,7 +108,7 @@ views-news = { $count ->
 
 views-reduced = Geglättet und reduziert
 views-triangles = Ihre Dreiecke
-views-calibre-meaning = Kaliberänderung, { $from } % (dunkel) bis { $to } % (hell)
+views-calibre-meaning = Kaliberänderung, { $from } % (dunkel) bis { $to } % (hell); grau: nicht gemessen
 views-deviation-meaning = Abweichung, { $from } mm (dunkel) bis { $to } mm (hell)
 
 ## Klassen der Eckpunkte nach Schroeder
@@ -131,8 +131,14 @@ views-follow = Jeden zeigen
 views-follow-help = Die Kamera geht dorthin, wo der nächste ist
 views-close = Schließen
 views-close-help = Keine Kollapse mehr (Esc)
-views-next-vertex = Als Nächstes, { $number } von { $all }: Ein Eckpunkt der Klasse „{ $class }“ geht in einem Nachbarn auf; aus { $before } Dreiecken werden { $after }.
-views-next-edge = Als Nächstes, { $number } von { $all }: Eine Kante wird zu einem Eckpunkt an eigener Stelle; aus { $before } Dreiecken werden { $after }.
+views-next-vertex = { $before ->
+    [one] Als Nächstes, { $number } von { $all }: Ein Eckpunkt der Klasse „{ $class }“ geht in einem Nachbarn auf; aus { $before } Dreieck werden { $after }.
+   *[other] Als Nächstes, { $number } von { $all }: Ein Eckpunkt der Klasse „{ $class }“ geht in einem Nachbarn auf; aus { $before } Dreiecken werden { $after }.
+}
+views-next-edge = { $before ->
+    [one] Als Nächstes, { $number } von { $all }: Eine Kante wird zu einem Eckpunkt an eigener Stelle; aus { $before } Dreieck werden { $after }.
+   *[other] Als Nächstes, { $number } von { $all }: Eine Kante wird zu einem Eckpunkt an eigener Stelle; aus { $before } Dreiecken werden { $after }.
+}
 views-next-error = Der Fehler beträgt { $cost } mm: der quadratische Mittelwert der Abstände von den Ebenen, für die er steht. Der größte bisher ist { $largest } mm.
 views-next-error-line = Der Fehler beträgt { $cost } mm: der quadratische Mittelwert der Abstände von den Ebenen, für die er steht, oder der Abstand von seiner Linie, wo dieser größer ist. Der größte bisher ist { $largest } mm.
 views-last-level = Dies ist die letzte Stufe: Kein Eckpunkt darf mehr wegfallen.
@@ -144,7 +150,10 @@ views-vertex = Eckpunkt der Klasse „{ $class }“.
 views-stays-by-rule = Er bleibt laut Regel: Die Oberfläche ist dort keine Scheibe.
 views-stays-crowded = Dort treffen sich zu viele Dreiecke: Er wartet auf seine Nachbarn.
 views-goes-never = In diesem Lauf fällt er nie weg.
-views-goes-at = In diesem Lauf fällt er bei { $count } Dreiecken weg, mit einem Fehler von { $cost } mm.
+views-goes-at = { $count ->
+    [one] In diesem Lauf fällt er bei { $count } Dreieck weg, mit einem Fehler von { $cost } mm.
+   *[other] In diesem Lauf fällt er bei { $count } Dreiecken weg, mit einem Fehler von { $cost } mm.
+}
 views-ways = { $count ->
     [one] Weg zu seinem einen Nachbarn: { $ways }.
    *[other] Wege zu seinen { $count } Nachbarn: { $ways }.

@@ -88,7 +88,7 @@ app-colour-classes-help = What decimation takes each vertex for: simple, complex
 app-feature-lines = Feature edges and open ends
 app-feature-lines-help = Edges sharper than the feature angle, as decimation found them, and the boundary
 app-present = Present
-app-present-help = For a projector: larger letters, keys are shown as they are pressed, the panel is hidden (P)
+app-present-help = For a projector: larger letters, keys are shown as they are pressed, of the panel only what is dragged (P)
 app-language = Language
 # Beside the languages: the one that the system or the browser is set to.
 app-language-system = As the system
@@ -124,6 +124,18 @@ app-panel-low = Panel height: low
 app-panel-half = Panel height: half
 app-panel-full = Panel height: full
 app-panel-help = Drag it up or down; a tap or an arrow key goes to the next height
+
+## Over the sample, until a file is opened
+
+# Followed by a button with the next message; they read as one sentence.
+app-invite-drop = Drop a vessel here, or
+app-invite-open = open one
+# On the button where a finger points, which drops nothing.
+app-invite-open-alone = Open a vessel
+app-invite-open-help = Choose a file: nothing leaves this machine
+# For assistive tools, and its tooltip.
+app-invite-close = Close the invitation
+app-invite-close-help = The sample stays open
 
 ## The sheet of keys: what is pressed, and what it does
 
@@ -263,7 +275,7 @@ app-pair-not-written = Nothing was saved: { $name } could not be written: { $err
 
 ## Presenting
 
-app-presenting = Presenting: larger letters, keys are shown, the panel is hidden. P or Esc ends it.
+app-presenting = Presenting: larger letters, keys are shown, of the panel only what is dragged. P or Esc ends it.
 
 ## Settings for others: as a file and in a link
 
@@ -310,9 +322,18 @@ app-measured-opened = As opened
 app-measured-opened-vessel = As opened, { $vessel }
 app-measured-opened-fork = As opened, { $vessel }, at a fork
 # On a level of so many triangles.
-app-measured-level = On { $count } triangles
-app-measured-level-vessel = On { $count } triangles, { $vessel }
-app-measured-level-fork = On { $count } triangles, { $vessel }, at a fork
+app-measured-level = { $count ->
+    [one] On { $count } triangle
+   *[other] On { $count } triangles
+}
+app-measured-level-vessel = { $count ->
+    [one] On { $count } triangle, { $vessel }
+   *[other] On { $count } triangles, { $vessel }
+}
+app-measured-level-fork = { $count ->
+    [one] On { $count } triangle, { $vessel }, at a fork
+   *[other] On { $count } triangles, { $vessel }, at a fork
+}
 
 ## What comes back at the next start
 

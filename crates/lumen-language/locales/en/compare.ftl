@@ -73,7 +73,10 @@ compare-no-device = There is no graphics device to draw with.
 
 compare-not-smoothed = not smoothed
 compare-pass-band = pass band { $value }
-compare-iterations = { $value } iterations
+compare-iterations = { $value ->
+    [one] 1 iteration
+   *[other] { $value } iterations
+}
 # The name of a window function: Hamming window.
 compare-window = { $value } window
 # $value is the name of the rule.
@@ -90,7 +93,10 @@ compare-labels-kept = label borders kept
 compare-not-reduced = not reduced
 compare-auto = automatic reduction
 compare-reduction = reduction { $percent } %
-compare-triangles-wanted = { $count } triangles wanted
+compare-triangles-wanted = { $count ->
+    [one] { $count } triangle wanted
+   *[other] { $count } triangles wanted
+}
 compare-deviation-up-to = deviation up to { $most } mm
 
 ## The numbers of a cell: short, a column is some 110 points wide

@@ -66,9 +66,9 @@ devices-roll-pad-help = Drag aside to roll the wire (A, D)
 ## The force of a device
 
 devices-felt-as = Felt as
-devices-felt-as-help = The part of the device's most force that 1 N along the wire is felt as
+devices-felt-as-help = The part of the device's most force that 1 N along the wire is felt as
 devices-torque-as = Torque as
-devices-torque-as-help = The part of the device's most force that 1 N mm about the wire is felt as
+devices-torque-as-help = The part of the device's most force that 1 N mm about the wire is felt as
 devices-stop-force = Stop force
 devices-stop-force-help = The device lets go at once (Esc)
 devices-ask-arm-force = Arm force...
@@ -80,7 +80,7 @@ devices-not-now = Not now
 devices-felt = Felt
 devices-felt-help = What the hand holds at the guide
 devices-latency = Latency
-devices-latency-help = From input report to output report: half, 95 % and 99 % are not longer
+devices-latency-help = From input report to output report: half, 95 % and 99 % are not longer
 devices-save-latency = Save latency
 devices-save-latency-help = Saves these times, the device's name and Lumen's version as a small table, and nothing else
 devices-ended-hidden = The force was ended as the window was left.
@@ -103,7 +103,7 @@ devices-leave-still-help = The gamepad does not shake
 ## A sound in place of a force
 
 devices-sound = Sound of the force
-devices-sound-help = A tone that is the higher and the louder the more force the hand holds at the guide, up to 0.1 N or 1 N mm
+devices-sound-help = A tone that is the higher and the louder the more force the hand holds at the guide, up to 0.1 N or 1 N mm
 devices-no-sound = The force cannot be heard here: the desktop program plays it on Linux by pw-play, paplay or aplay, a browser by Web Audio.
 
 ## Why a device is not served, in the browser

@@ -65,8 +65,8 @@ lesson-stair-steps-text =
     show: split
     look: the line in the left view: drag it. Left of it the surface as opened, right of it smoothed.
     ask: How far has a vertex moved, compared with the size of a voxel?
-    answer: On most of the wall about half a voxel: there a terrace ends that far from where the wall was. Colour by deviation,
-      from the surface as opened, shows it.
+    answer: On most of the wall less than half a voxel: a terrace ends no farther than that from where the wall was. Colour by
+      deviation, from the surface as opened, shows it.
 
     step: Why a simulation minds
     text: A guidewire feels each terrace as an edge. Friction is asked for where there is none in the patient, and a contact search
@@ -90,7 +90,7 @@ lesson-pass-band-text =
     look: Response in step 2 of the panel: a straight line at 100 %.
 
     step: Only what is long
-    text: At 0.1 the shortest waves go. The sentence below Window says up to which length in millimetres half of a wave is left.
+    text: At 0.1 the shortest waves go. The sentence below Strength says up to which length in millimetres half of a wave is left.
     settings: pass-band=0.1 reduction=0 adapt=no guard=no
     view: anterior
     show: split
@@ -99,15 +99,16 @@ lesson-pass-band-text =
     answer: Less. The pass band is the highest eigenvalue that passes; a smaller one leaves longer waves only.
 
     step: The paper's choice
-    text: At 0.01 with 100 iterations terraces are gone on this surface and the form stays. The number has no unit: on a finer mesh
-      the same 0.01 means shorter waves.
+    text: At 0.01 with 100 iterations terraces are gone on this surface, and calibres stay to about 3 %. The number has no unit: on a
+      finer mesh the same 0.01 means shorter waves.
     settings: pass-band=0.01 reduction=0 adapt=no guard=no
     view: anterior
     show: split
     look: the length in the sentence, beside the circumference of the thinnest vessel (dotted in Response).
 
     step: Too far
-    text: At 0.001 waves as long as the way around a vessel begin to go. That is no noise any more: it is the vessel.
+    text: At 0.001 waves as long as the way around a vessel go: the renal arteries are drawn shut, the iliac arteries lose half of
+      their calibre. That is no noise any more: it is the vessel.
     settings: pass-band=0.001 iterations=200 reduction=0 adapt=no guard=no
     view: anterior
     show: calibre
@@ -143,9 +144,9 @@ lesson-windows-text =
     settings: pass-band=0.1 iterations=30 window=nuttall reduction=0 adapt=no guard=no
     view: anterior
     show: split
-    look: the curve while you choose one window after the other in step 2.
+    look: the curve while you choose one Window after the other, under Advanced in step 2.
     ask: Which of the four has the steepest fall at the same degree?
-    answer: Hamming, with Hanning beside it. The lower the ripple, the wider the fall.
+    answer: Hamming, then Hanning. Blackman and Nuttall ripple less and fall less steeply.
 
 lesson-shrinkage = Shrinkage
 lesson-shrinkage-text =
@@ -219,12 +220,12 @@ lesson-decimation-text =
     answer: On smooth vessels about so: the error grows with the square of a triangle's side, and that is as one over their number.
 
     step: What never changes
-    text: No tube is pinched shut, no open end closed, no two vessels joined and no triangle made to cross another. Where nothing more
-      may go, the run ends.
+    text: No open end is closed, no two vessels are joined, and no triangle is made to cross another. A calibre may change: from
+      99.8 % on a vessel is pinched, and the verdict says where. Where nothing more may go, the run ends.
     settings: reduction=99.9
     view: anterior
     show: flat
-    look: every branch is still there, with an open end of three edges or more.
+    look: every open end is still there, with three edges or more; and the place that is pinched.
 
 lesson-wire = What a wire feels
 lesson-wire-text =

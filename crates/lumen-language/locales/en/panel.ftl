@@ -16,20 +16,33 @@ panel-reset = Reset { $name }
 panel-show = Show
 # On a button: sets what was found.
 panel-go-there = Go there
+# The head of what is folded up in a step.
+panel-advanced = Advanced
+panel-advanced-help = What seldom needs another setting
+# For assistive tools: $step is "Smooth" or "Reduce".
+panel-advanced-of = Advanced: { $step }
 
 ## Step 1: the surface
 
 panel-surface = Surface
 panel-surface-does = The largest connected piece is kept.
 panel-surface-none = Open a surface, or drop a file here.
+# Beside the name of step 1 while it is folded: keep it short.
+panel-surface-to-mend = needs mending
 panel-in-file = Triangles in file
 panel-in-file-help = As the file holds them, polygons split
 panel-kept = Kept
-panel-triangle-count = { $count } triangles
+panel-triangle-count = { $count ->
+    [one] { $count } triangle
+   *[other] { $count } triangles
+}
 panel-left-out = Left out
 panel-left-out-help = Pieces that share no vertex with the one that is kept
 # $count triangles.
-panel-left-out-count = { $count } in { $pieces } pieces
+panel-left-out-count = { $pieces ->
+    [one] { $count } in { $pieces } piece
+   *[other] { $count } in { $pieces } pieces
+}
 panel-show-left-out = Show what is left out
 panel-show-left-out-help = Click a piece in the view to keep that one; with Shift or Ctrl to add it or take it away
 panel-unit = Unit of the file
@@ -43,7 +56,10 @@ panel-piece-add = Keeps this piece as well, or no longer
 # For assistive tools: $piece is "1,234 triangles, 56.7 mm".
 panel-piece-keep = Keep the piece of { $piece }
 # A piece in a list.
-panel-piece = { $count } triangles, { $size } mm
+panel-piece = { $count ->
+    [one] { $count } triangle, { $size } mm
+   *[other] { $count } triangles, { $size } mm
+}
 # For assistive tools: the list of pieces.
 panel-piece-list = Piece
 
@@ -73,8 +89,14 @@ panel-array-identifiers = { $on ->
    *[triangles] { $name }: labels on triangles, { $kind }
 }
 panel-array-labels = { $on ->
-    [vertices] { $name }: { $count } labels on vertices, { $kind }
-   *[triangles] { $name }: { $count } labels on triangles, { $kind }
+    [vertices] { $name }: { $count ->
+        [one] { $count } label on vertices
+       *[other] { $count } labels on vertices
+    }, { $kind }
+   *[triangles] { $name }: { $count ->
+        [one] { $count } label on triangles
+       *[other] { $count } labels on triangles
+    }, { $kind }
 }
 panel-array-scalar = { $on ->
     [vertices] { $name }: scalar on vertices, { $kind }
@@ -181,8 +203,11 @@ panel-adapt-help = Smooths thin vessels less, so that each keeps its calibre. Th
 panel-guard = No crossings
 panel-guard-help = Smooths less where triangles would be drawn through others: at folds, between vessels.
 panel-volume-held = Preserve volume
-panel-volume-held-help = Gives back what smoothing takes off, where it does: open ends capped, held to 0.01 %.
-panel-smoothed-less = Smoothed less at { $count } vertices: no crossings.
+panel-volume-held-help = Gives back what smoothing takes off, where it does: open ends capped, held to 0.01 %.
+panel-smoothed-less = { $count ->
+    [one] Smoothed less at { $count } vertex: no crossings.
+   *[other] Smoothed less at { $count } vertices: no crossings.
+}
 panel-smoothed-less-help = Goes to where it is smoothed least
 # What is said of the place that the view goes to.
 panel-smoothed-less-place = Smoothed less
@@ -222,7 +247,10 @@ panel-laplacian = Laplacian beside it
 panel-laplacian-help = What moving each vertex to its neighbours' mean would leave, as often as there are iterations
 panel-laplacian-seen = In the picture, too
 panel-laplacian-seen-help = In the split view, at the left what as many Laplacian passes make of the surface: thin vessels shrink
-panel-laplacian-left = Red: { $passes } Laplacian passes, λ = { $factor }: { $percent } % of the wave is left.
+panel-laplacian-left = { $passes ->
+    [one] Red: { $passes } Laplacian pass, λ = { $factor }: { $percent } % of the wave is left.
+   *[other] Red: { $passes } Laplacian passes, λ = { $factor }: { $percent } % of the wave is left.
+}
 # Diameters with their unit: as it is, after Laplacian smoothing, after windowed-sinc smoothing.
 panel-laplacian-thinnest = The thinnest vessel, { $whole }, becomes { $laplacian }; by windowed sinc { $sinc }.
 panel-laplacian-thinnest-adapted = The thinnest vessel, { $whole }, becomes { $laplacian }; by windowed sinc { $sinc } (more as it is adapted).
@@ -258,9 +286,13 @@ panel-auto-deciding = Automatic: finding how far is safe
 panel-auto-help = Reduces by 90 %, or as far as every vessel keeps its calibre to { $tolerance } % and none is pinched, whichever is less. The slider sets a number instead.
 # Followed by a rate: reduction up to it changes no vessel too much.
 panel-safe = Safe to
-panel-safe-help = Up to here every vessel that can be measured keeps its calibre to { $tolerance } %, none is pinched, and no triangles cross that did not.
+panel-safe-help = Up to here every vessel that can be measured keeps its calibre to { $tolerance } %, none is pinched, and no triangles cross that did not.
 # $why is a part of a sentence.
 panel-safe-refused = There is no such rate here: { $why }.
+# In place of "Safe to" where too little is measured to call the surface safe.
+panel-kept-to = Kept to
+# What the rate rests on: $coverage is "52 % of the length, 4 of 17 vessels".
+panel-safe-rests = Measured over { $coverage }.
 panel-safe-changed = Branches that smoothing itself changes by more do not count: { $count }.
 panel-safe-go-help = Sets the reduction to the mark under the slider
 panel-wanted = Triangles wanted
@@ -282,7 +314,11 @@ panel-error-mm = Error, mm
 # Beside lines of the picture.
 panel-error-now = now
 panel-error-safe = safe
-panel-error-is = Error against triangles: { $error } mm at { $count } triangles
+panel-error-kept = kept
+panel-error-is = { $count ->
+    [one] Error against triangles: { $error } mm at { $count } triangle
+   *[other] Error against triangles: { $error } mm at { $count } triangles
+}
 panel-error-schroeder = Error: the method's own, which orders its steps. Root mean square distance from the planes that a vertex stood for; on edges and open ends at least that from their line. No bound: the points are measured.
 panel-error-quadric = Error: the method's own, which orders its steps. Root mean square distance of the new vertex from the planes that it stands for. No bound: the points are measured.
 panel-error-other = Grey: { $method }, from the same surface.
@@ -290,7 +326,10 @@ panel-error-other-none = { $method } stands beside it once it was chosen: it tak
 # Beside the pointer, in three lines; $curve is what the curve is of.
 panel-error-at =
     { $curve }
-    { $error } mm at { $count } triangles
+    { $error } mm at { $count ->
+        [one] { $count } triangle
+       *[other] { $count } triangles
+    }
     Click to go there
 
 ## The result

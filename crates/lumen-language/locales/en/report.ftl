@@ -20,7 +20,10 @@ report-format = Format
 # A format and the unit of lengths: STL, in mm.
 report-format-in = { $format }, in { $unit }
 report-opened = Opened
-report-counts = { $triangles } triangles in { $pieces ->
+report-counts = { $triangles ->
+    [one] { $triangles } triangle
+   *[other] { $triangles } triangles
+} in { $pieces ->
     [one] one piece
    *[other] { $pieces } pieces
 }
@@ -46,7 +49,10 @@ report-split = sheets split
 report-filled = holes up to { $value } mm filled
 report-smoothing = Smoothing
 report-no-smoothing = none
-report-filter = pass band { $band }, { $count } iterations, { $window }
+report-filter = pass band { $band }, { $count ->
+    [one] { $count } iteration
+   *[other] { $count } iterations
+}, { $window }
 # A preset, and what it stands for.
 report-preset = { $preset }: { $filter }
 report-no-crossings = no crossings
@@ -55,7 +61,10 @@ report-reduction = Reduction
 report-target-reduction = { $percent } % of the triangles
 report-target-auto = { $percent } % of the triangles, chosen automatically
 report-target-auto-safe = { $percent } % of the triangles, chosen automatically: as far as is safe
-report-target-triangles = to { $count } triangles
+report-target-triangles = { $count ->
+    [one] to { $count } triangle
+   *[other] to { $count } triangles
+}
 report-target-deviation = within { $most } mm
 report-method = Method
 report-allowed = Allowed change of calibre
@@ -73,7 +82,6 @@ report-half-gain = Half gain of smoothing
 report-crossing = Triangles that cross
 report-smallest-lumen = Smallest lumen
 report-measured = Vessels measured
-report-measured-part = { $percent } % of their length
 report-output-fingerprint = Surface's fingerprint
 
 ## Heads of columns, and cells
@@ -83,6 +91,8 @@ report-radius = Radius as opened, mm
 report-diameter = Diameter
 report-by-area = By area
 report-diameter-mm = Diameter, mm
+# Where along the vessel the reference is measured.
+report-reference-at = Reference at, mm
 report-at-mm = At, mm
 # The least or largest diameter of a stretch, and the reference.
 report-diameter-of = { $diameter } of { $reference }

@@ -16,7 +16,7 @@ scan-values = Values
 # $unit is empty, or a space and "HU".
 scan-values-range = { $low } to { $high }{ $unit }
 scan-threshold = Threshold
-scan-threshold-help = What has this value and more is the vessel; contrast-filled vessels in CT have 150 to 500 HU.
+scan-threshold-help = What has this value and more is the vessel; contrast-filled vessels in CT have 150 to 500 HU.
 # For assistive tools.
 scan-histogram = Histogram, with the threshold
 # Which label of the mask is the vessel.
@@ -43,7 +43,10 @@ scan-across-help = Which way the slice that is shown lies
 scan-slice = Slice
 scan-preview = Preview
 scan-preview-help = The surface at reduced resolution
-scan-triangles = { $count } triangles
+scan-triangles = { $count ->
+    [one] { $count } triangle
+   *[other] { $count } triangles
+}
 # $block is, for example, 2 x 2 x 2.
 scan-preview-coarse = The preview has one voxel for each { $block }, where anything in these is inside: thin vessels look wider than they are.
 scan-cancel = Cancel

@@ -84,7 +84,7 @@ trial-contacts = Contacts
 trial-contacts-sum = { $count }, { $force } in all
 trial-contacts-help = Places where the wire lies against the wall, and the sum of their forces
 trial-tip-force = Force at the tip
-trial-tip-force-help = On the wall within 5 mm of the tip
+trial-tip-force-help = On the wall within 5 mm of the tip
 trial-torque = Torque
 trial-torque-help = The moment about the wire's axis at the guide
 trial-branch = Branch
@@ -229,7 +229,10 @@ trial-cancel-comparison-help = Compare no more; the trial goes on
 trial-smallest = Smallest lumen
 trial-smallest-was = { $after } mm, was { $before } mm
 trial-smallest-help = Diameter where the route is narrowest, after and before the reduction
-trial-pinched-places = { $count } places
+trial-pinched-places = { $count ->
+    [one] { $count } place
+   *[other] { $count } places
+}
 trial-pinched-help = Ringed in the view
 trial-largest-deviation = Largest deviation
 trial-largest-deviation-help = Between the two tips at the same time
@@ -269,11 +272,11 @@ trial-column-average-fps-help = Mean over the five stations (the paper's)
 trial-column-worst-fps = Worst fps
 trial-column-worst-fps-help = The slowest station
 trial-column-simulation = Simulation, ms
-trial-column-simulation-help = To compute 1/60 s: in the first second, and the mean at the stations
+trial-column-simulation-help = To compute 1/60 s: in the first second, and the mean at the stations
 trial-column-drawing = Drawing, ms
 trial-column-drawing-help = To draw one frame of 1280x800
 trial-column-steps = Steps/s
-trial-column-steps-help = Steps of 2 ms that this machine computes in a second
+trial-column-steps-help = Steps of 2 ms that this machine computes in a second
 trial-column-success = Success
 trial-column-success-help = Whether the tip arrived (the paper's)
 trial-column-peak-force = Peak force, N

@@ -8,6 +8,8 @@ verdict-follows = Calibre and shape follow.
 verdict-auto-follows = How far is safe is being found: the reduction may still go back.
 # Beside "Not measured".
 verdict-stopped = It was cancelled, or the computation has stopped: change a setting to go on.
+# $text is what is said of the surface, a sentence: that it is a sample.
+verdict-sample = Sample: { $text }
 # Buttons: keep them short. This one opens a list of findings with what helps.
 verdict-what-to-do = What to do
 # Shows the pieces that are left out, which can be chosen in the view.
@@ -21,6 +23,9 @@ verdict-notes = { $count ->
 }
 verdict-show-vessels = Show vessels
 verdict-show-vessels-help = What became of each, and where (V)
+# Where too little is measured: opens the vessels with what is not measured.
+verdict-show-unmeasured = Show unmeasured
+verdict-show-unmeasured-help = Opens the vessels and goes to what is not measured; the surface shows it in grey
 verdict-remedy-help = Would help; can be undone
 # Goes to the place of a finding.
 verdict-show-place = Show me

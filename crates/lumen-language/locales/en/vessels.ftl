@@ -32,6 +32,8 @@ vessels-column-vessel = Vessel
 vessels-column-vessel-help = Click to see the radius along it and to go where it changes most
 vessels-column-verdict = Verdict
 vessels-column-verdict-help = Whether it keeps its calibre as reduced, within the change that is allowed
+vessels-column-measured = Measured
+vessels-column-measured-help = The part of its length where it is measured: elsewhere the verdict says nothing
 vessels-column-reduced = Reduced
 vessels-column-reduced-help = The largest change of its radius, as reduced, from the surface as opened
 vessels-column-smoothed = Smoothed
@@ -47,6 +49,8 @@ vessels-column-tortuosity = Tortuosity
 vessels-column-tortuosity-help = Length over the distance of the ends
 # The first line of a table that is copied.
 vessels-table = { $name }, allowed change { $tolerance } %
+# Follows it after a comma.
+vessels-table-measured = measured over { $coverage }
 
 ## Why a vessel is nowhere measured
 
@@ -59,6 +63,8 @@ vessels-at-ends = It is too short: all of it lies at ends or forks.
 ## The radius along a vessel
 
 vessels-radius-head = Radius along { $name }:
+# Above it: a stretch that is narrower or wider than on either side, and what it is compared with.
+vessels-uneven = { $stretch }: { $reference }
 vessels-radius-along = Radius along { $name }
 # The three surfaces, in a legend.
 vessels-as-opened = as opened
@@ -78,5 +84,7 @@ vessels-hover =
 
 # In the panel, short.
 vessels-all-kept-short = kept, to { $tolerance } %
+# Where too little is measured.
+vessels-kept-short = kept over { $percent } %
 vessels-some-changed-short = { $changed } of { $all } changed
 vessels-not-here = { $name }: not measured here

@@ -33,7 +33,8 @@ views-axes-unknown = Axes unknown
 ## The legend of colours: titles and notes stand right-aligned above and below a narrow bar
 
 views-calibre = Change of calibre
-views-calibre-note = No colour: not measured
+# Beside a patch of grey.
+views-calibre-note = not measured
 # In the trial, of the wall.
 views-peak-force = Peak force
 # $value is a number with its unit: the colour at this end stands for all beyond it as well.
@@ -97,19 +98,28 @@ views-seen-laplacian = { $passes ->
     [one] { $name } after { $passes } Laplacian pass, from { $side }
    *[other] { $name } after { $passes } Laplacian passes, from { $side }
 }
-views-seen-opened = { $name } as it was opened, from { $side }, { $count } triangles
+views-seen-opened = { $count ->
+    [one] { $name } as it was opened, from { $side }, { $count } triangle
+   *[other] { $name } as it was opened, from { $side }, { $count } triangles
+}
 # With the next two behind it, after commas.
 views-seen = { $name } from { $side }
-views-seen-triangles = { $count } triangles
+views-seen-triangles = { $count ->
+    [one] { $count } triangle
+   *[other] { $count } triangles
+}
 views-seen-narrowest = narrowest { $diameter } mm
 # $verdict is one or two sentences.
-views-news = { $name }, { $count } triangles. { $verdict }
+views-news = { $count ->
+    [one] { $name }, { $count } triangle. { $verdict }
+   *[other] { $name }, { $count } triangles. { $verdict }
+}
 
 ## Below the pictures of a report
 
 views-reduced = Smoothed and reduced
 views-triangles = Its triangles
-views-calibre-meaning = Change of calibre, { $from } % (dark) to { $to } % (bright)
+views-calibre-meaning = Change of calibre, { $from } % (dark) to { $to } % (bright); grey: not measured
 views-deviation-meaning = Deviation, { $from } mm (dark) to { $to } mm (bright)
 
 ## The collapses, one by one
@@ -127,8 +137,14 @@ views-follow-help = The camera goes to where the next is
 views-close = Close
 views-close-help = No more collapses (Esc)
 # $number is that of the collapse, $all of them there are; $before triangles become $after.
-views-next-vertex = Next, { $number } of { $all }: a vertex of the class { $class } goes to a neighbour; { $before } triangles become { $after }.
-views-next-edge = Next, { $number } of { $all }: an edge becomes a vertex of its own place; { $before } triangles become { $after }.
+views-next-vertex = { $before ->
+    [one] Next, { $number } of { $all }: a vertex of the class { $class } goes to a neighbour; { $before } triangle becomes { $after }.
+   *[other] Next, { $number } of { $all }: a vertex of the class { $class } goes to a neighbour; { $before } triangles become { $after }.
+}
+views-next-edge = { $before ->
+    [one] Next, { $number } of { $all }: an edge becomes a vertex of its own place; { $before } triangle becomes { $after }.
+   *[other] Next, { $number } of { $all }: an edge becomes a vertex of its own place; { $before } triangles become { $after }.
+}
 views-next-error = Its error is { $cost } mm: the root mean square distance from the planes that it stands for. The largest so far is { $largest } mm.
 views-next-error-line = Its error is { $cost } mm: the root mean square distance from the planes that it stands for, or its distance from its line where that is more. The largest so far is { $largest } mm.
 views-last-level = This is the last level: no vertex may go any more.
@@ -141,9 +157,15 @@ views-vertex = { $class } vertex.
 views-stays-by-rule = It stays by rule: the surface is no disc there.
 views-stays-crowded = Too many triangles meet there: it waits for its neighbours.
 views-goes-never = In this run it never goes.
-views-goes-at = In this run it goes at { $count } triangles, for { $cost } mm.
+views-goes-at = { $count ->
+    [one] In this run it goes at { $count } triangle, for { $cost } mm.
+   *[other] In this run it goes at { $count } triangles, for { $cost } mm.
+}
 # $ways is a list of the next six, with commas.
-views-ways = Ways to its { $count } neighbours: { $ways }.
+views-ways = { $count ->
+    [one] Way to its one neighbour: { $ways }.
+   *[other] Ways to its { $count } neighbours: { $ways }.
+}
 views-way-open = { $count } open
 views-way-eased = { $count } open once shape may suffer more
 views-way-off-line = { $count } off its line

@@ -115,6 +115,18 @@ app-panel-half = Hauteur du panneau : moyenne
 app-panel-full = Hauteur du panneau : pleine
 app-panel-help = Le faire glisser vers le haut ou le bas ; un appui ou une touche fléchée passe à la hauteur suivante
 
+## Over the sample, until a file is opened
+
+# Followed by a button with the next message; they read as one sentence.
+app-invite-drop = Déposer un vaisseau ici, ou
+app-invite-open = en ouvrir un
+# On the button where a finger points, which drops nothing.
+app-invite-open-alone = Ouvrir un vaisseau
+app-invite-open-help = Choisir un fichier : rien ne quitte cette machine
+# For assistive tools, and its tooltip.
+app-invite-close = Fermer l'invitation
+app-invite-close-help = L'exemple reste ouvert
+
 ## The sheet of keys
 
 app-keys = Touches et gestes
@@ -247,7 +259,7 @@ app-pair-not-written = Rien n'a été enregistré : { $name } n'a pas pu être 
 
 ## Presenting
 
-app-presenting = Présentation : texte plus grand, touches affichées, panneau masqué. P ou Échap y met fin.
+app-presenting = Présentation : texte plus grand, touches affichées, du panneau seuls les curseurs. P ou Échap y met fin.
 
 ## Settings for others
 
@@ -288,9 +300,18 @@ app-measure-section = { $area } mm², { $least } à { $largest } mm de large, ce
 app-measured-opened = À l'ouverture
 app-measured-opened-vessel = À l'ouverture, { $vessel }
 app-measured-opened-fork = À l'ouverture, { $vessel }, à une bifurcation
-app-measured-level = Sur { $count } triangles
-app-measured-level-vessel = Sur { $count } triangles, { $vessel }
-app-measured-level-fork = Sur { $count } triangles, { $vessel }, à une bifurcation
+app-measured-level = { $count ->
+    [one] Sur { $count } triangle
+   *[other] Sur { $count } triangles
+}
+app-measured-level-vessel = { $count ->
+    [one] Sur { $count } triangle, { $vessel }
+   *[other] Sur { $count } triangles, { $vessel }
+}
+app-measured-level-fork = { $count ->
+    [one] Sur { $count } triangle, { $vessel }, à une bifurcation
+   *[other] Sur { $count } triangles, { $vessel }, à une bifurcation
+}
 
 ## What comes back at the next start
 

@@ -66,9 +66,9 @@ devices-roll-pad-help = Glisser de côté pour tourner le guide (A, D)
 ## La force d'un appareil
 
 devices-felt-as = Ressenti
-devices-felt-as-help = La part de sa force maximale avec laquelle l'appareil fait sentir 1 N le long du guide
+devices-felt-as-help = La part de sa force maximale avec laquelle l'appareil fait sentir 1 N le long du guide
 devices-torque-as = Couple
-devices-torque-as-help = La part de sa force maximale avec laquelle l'appareil fait sentir 1 N mm autour du guide
+devices-torque-as-help = La part de sa force maximale avec laquelle l'appareil fait sentir 1 N mm autour du guide
 devices-stop-force = Arrêter
 devices-stop-force-help = L'appareil lâche aussitôt (Échap)
 devices-ask-arm-force = Armer la force...
@@ -103,7 +103,7 @@ devices-leave-still-help = La manette ne vibre pas
 ## Un son à la place d'une force
 
 devices-sound = Son de la force
-devices-sound-help = Un son d'autant plus aigu et plus fort que la main retient plus de force au cathéter, jusqu'à 0,1 N ou 1 N mm
+devices-sound-help = Un son d'autant plus aigu et plus fort que la main retient plus de force au cathéter, jusqu'à 0,1 N ou 1 N mm
 devices-no-sound = La force ne s'entend pas ici : le programme de bureau la joue sous Linux par pw-play, paplay ou aplay, un navigateur par Web Audio.
 
 ## Pourquoi un appareil n'est pas servi, dans le navigateur

@@ -66,8 +66,8 @@ lesson-stair-steps-text =
     show: split
     look: la ligne dans la vue de gauche ; tirez-la. À sa gauche, la surface à l'ouverture ; à sa droite, lissée.
     ask: De combien un sommet a-t-il bougé, par rapport à la taille d'un voxel ?
-    answer: Sur la plus grande part de la paroi environ un demi-voxel : c'est à cette distance de la vraie paroi que s'y arrête une
-      terrasse. Couleur selon l'écart le montre, avec « Depuis l'original » coché.
+    answer: Sur la plus grande part de la paroi moins d'un demi-voxel : aucune terrasse ne s'y arrête plus loin de la vraie paroi.
+      Couleur selon l'écart le montre, avec « Depuis l'original » coché.
 
     step: Pourquoi cela gêne une simulation
     text: Un guide sent chaque terrasse comme une arête. Un frottement est demandé là où le patient n'en a pas, et la recherche de
@@ -91,7 +91,7 @@ lesson-pass-band-text =
     look: la réponse à l'étape 2 du panneau, une droite à 100 %.
 
     step: Seulement ce qui est long
-    text: À 0,1 les ondes les plus courtes disparaissent. La phrase sous Fenêtre dit jusqu'à quelle longueur en millimètres il reste la
+    text: À 0,1 les ondes les plus courtes disparaissent. La phrase sous Intensité dit jusqu'à quelle longueur en millimètres il reste la
       moitié d'une onde.
     settings: pass-band=0.1 reduction=0 adapt=no guard=no
     view: anterior
@@ -101,15 +101,16 @@ lesson-pass-band-text =
     answer: Moins. La bande passante est la plus grande valeur propre qui passe ; une plus petite ne laisse que des ondes plus longues.
 
     step: Le choix de l'article
-    text: À 0,01 avec 100 itérations les terrasses ont disparu sur cette surface et la forme reste. Le nombre n'a pas d'unité : sur un
-      maillage plus fin le même 0,01 correspond à des ondes plus courtes.
+    text: À 0,01 avec 100 itérations les terrasses ont disparu sur cette surface, et les calibres restent à environ 3 % près. Le nombre
+      n'a pas d'unité : sur un maillage plus fin le même 0,01 correspond à des ondes plus courtes.
     settings: pass-band=0.01 reduction=0 adapt=no guard=no
     view: anterior
     show: split
     look: la longueur dans la phrase, à côté du tour du vaisseau le plus fin (en pointillé dans la réponse).
 
     step: Trop loin
-    text: À 0,001 des ondes aussi longues que le tour d'un vaisseau commencent à disparaître. Ce n'est plus du bruit : c'est le vaisseau.
+    text: À 0,001 des ondes aussi longues que le tour d'un vaisseau disparaissent : les artères rénales se referment, les artères
+      iliaques perdent la moitié de leur calibre. Ce n'est plus du bruit : c'est le vaisseau.
     settings: pass-band=0.001 iterations=200 reduction=0 adapt=no guard=no
     view: anterior
     show: calibre
@@ -145,9 +146,9 @@ lesson-windows-text =
     settings: pass-band=0.1 iterations=30 window=nuttall reduction=0 adapt=no guard=no
     view: anterior
     show: split
-    look: la courbe pendant que vous choisissez une fenêtre après l'autre à l'étape 2.
+    look: la courbe pendant que vous choisissez une fenêtre après l'autre, sous Avancé à l'étape 2.
     ask: Laquelle des quatre a la chute la plus raide au même degré ?
-    answer: Hamming, avec Hanning à côté. Moins il y a d'ondulation, plus la chute est large.
+    answer: Hamming, puis Hanning. Blackman et Nuttall ondulent moins et tombent moins vite.
 
 lesson-shrinkage = Rétrécissement
 lesson-shrinkage-text =
@@ -224,12 +225,13 @@ lesson-decimation-text =
       leur nombre.
 
     step: Ce qui ne change jamais
-    text: Aucun tube n'est pincé, aucune extrémité ouverte n'est fermée, aucun vaisseau n'est joint à un autre, et aucun triangle
-      n'est amené à en croiser un autre. Là où rien de plus ne peut partir, la décimation s'arrête.
+    text: Aucune extrémité ouverte n'est fermée, aucun vaisseau n'est joint à un autre, et aucun triangle n'est amené à en croiser un
+      autre. Un calibre peut changer : à partir de 99,8 % un vaisseau est pincé, et le verdict dit où. Là où rien de plus ne
+      peut partir, la décimation s'arrête.
     settings: reduction=99.9
     view: anterior
     show: flat
-    look: chaque branche est encore là, avec une extrémité ouverte de trois arêtes ou plus.
+    look: chaque extrémité ouverte est encore là, avec trois arêtes ou plus ; et l'endroit qui est pincé.
 
 lesson-wire = Ce que sent un guide
 lesson-wire-text =

@@ -16,12 +16,19 @@ panel-reset = Réinitialiser : { $name }
 panel-show = Voir
 # On a button: sets what was found.
 panel-go-there = Appliquer
+# The head of what is folded up in a step.
+panel-advanced = Avancé
+panel-advanced-help = Ce qu'il faut rarement régler autrement
+# For assistive tools: $step is "Smooth" or "Reduce".
+panel-advanced-of = Avancé : { $step }
 
 ## Step 1: the surface
 
 panel-surface = Surface
 panel-surface-does = Le plus grand morceau d'un seul tenant est gardé.
 panel-surface-none = Ouvrir une surface, ou déposer un fichier ici.
+# Beside the name of step 1 while it is folded: keep it short.
+panel-surface-to-mend = à réparer
 panel-in-file = Triangles du fichier
 panel-in-file-help = Tels que le fichier les contient, polygones découpés
 panel-kept = Gardés
@@ -82,8 +89,14 @@ panel-array-identifiers = { $on ->
    *[triangles] { $name } : étiquettes sur triangles, { $kind }
 }
 panel-array-labels = { $on ->
-    [vertices] { $name } : { $count } étiquettes sur sommets, { $kind }
-   *[triangles] { $name } : { $count } étiquettes sur triangles, { $kind }
+    [vertices] { $name } : { $count ->
+        [one] { $count } étiquette sur sommets
+       *[other] { $count } étiquettes sur sommets
+    }, { $kind }
+   *[triangles] { $name } : { $count ->
+        [one] { $count } étiquette sur triangles
+       *[other] { $count } étiquettes sur triangles
+    }, { $kind }
 }
 panel-array-scalar = { $on ->
     [vertices] { $name } : scalaire sur sommets, { $kind }
@@ -282,6 +295,8 @@ panel-safe = Sûr jusqu'à
 panel-safe-help = Jusqu'ici, chaque vaisseau mesurable garde son calibre à { $tolerance } % près, aucun n'est pincé, et aucun triangle n'en croise d'autres sans l'avoir déjà fait.
 # $why is a part of a sentence.
 panel-safe-refused = Il n'y a pas de tel taux ici : { $why }.
+panel-kept-to = Gardé jusqu'à
+panel-safe-rests = Mesuré sur { $coverage }.
 panel-safe-changed = Les branches que le lissage lui-même change davantage ne comptent pas : { $count }.
 panel-safe-go-help = Place la réduction à la marque sous le curseur
 panel-wanted = Triangles voulus
@@ -303,7 +318,11 @@ panel-error-mm = Erreur, mm
 # Beside lines of the picture.
 panel-error-now = ici
 panel-error-safe = sûr
-panel-error-is = Erreur selon les triangles : { $error } mm à { $count } triangles
+panel-error-kept = gardé
+panel-error-is = { $count ->
+    [one] Erreur selon les triangles : { $error } mm à { $count } triangle
+   *[other] Erreur selon les triangles : { $error } mm à { $count } triangles
+}
 panel-error-schroeder = Erreur : celle de la méthode, qui ordonne ses pas. Moyenne quadratique de la distance aux plans que représentait un sommet ; sur les arêtes et extrémités ouvertes, au moins celle à leur ligne. Ce n'est pas une borne : les points sont mesurés.
 panel-error-quadric = Erreur : celle de la méthode, qui ordonne ses pas. Moyenne quadratique de la distance du nouveau sommet aux plans qu'il représente. Ce n'est pas une borne : les points sont mesurés.
 panel-error-other = Gris : { $method }, de la même surface.
@@ -311,7 +330,10 @@ panel-error-other-none = { $method } apparaît à côté une fois choisie : il 
 # Beside the pointer, in three lines; $curve is what the curve is of.
 panel-error-at =
     { $curve }
-    { $error } mm à { $count } triangles
+    { $error } mm à { $count ->
+        [one] { $count } triangle
+       *[other] { $count } triangles
+    }
     Cliquer pour y aller
 
 ## The result

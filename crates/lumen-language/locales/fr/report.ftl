@@ -19,7 +19,10 @@ report-no-fingerprint = aucune : ne vient pas d'un fichier
 report-format = Format
 report-format-in = { $format }, en { $unit }
 report-opened = Ouvert
-report-counts = { $triangles } triangles en { $pieces ->
+report-counts = { $triangles ->
+    [one] { $triangles } triangle
+   *[other] { $triangles } triangles
+} en { $pieces ->
     [one] { $pieces } morceau
    *[other] { $pieces } morceaux
 }
@@ -54,7 +57,10 @@ report-reduction = Réduction
 report-target-reduction = { $percent } % des triangles
 report-target-auto = { $percent } % des triangles, choix automatique
 report-target-auto-safe = { $percent } % des triangles, choix automatique : le taux sûr
-report-target-triangles = à { $count } triangles
+report-target-triangles = { $count ->
+    [one] à { $count } triangle
+   *[other] à { $count } triangles
+}
 report-target-deviation = à { $most } mm près
 report-method = Méthode
 report-allowed = Tolérance du calibre
@@ -72,7 +78,6 @@ report-half-gain = Demi-gain du lissage
 report-crossing = Auto-intersections
 report-smallest-lumen = Lumière minimale
 report-measured = Vaisseaux mesurés
-report-measured-part = { $percent } % de leur longueur
 report-output-fingerprint = Empreinte de surface
 
 ## Colonnes et cellules
@@ -82,6 +87,8 @@ report-radius = Rayon à l'ouverture, mm
 report-diameter = Diamètre
 report-by-area = En aire
 report-diameter-mm = Diamètre, mm
+# Où, le long du vaisseau, la référence est mesurée.
+report-reference-at = Référence à, mm
 report-at-mm = À, mm
 report-diameter-of = { $diameter } sur { $reference }
 report-measure = Mesure

@@ -13,7 +13,7 @@ scan-spacing-help = Entre les colonnes, les lignes et les coupes
 scan-values = Valeurs
 scan-values-range = { $low } à { $high }{ $unit }
 scan-threshold = Seuil
-scan-threshold-help = Ce qui a cette valeur ou plus est le vaisseau ; les vaisseaux opacifiés au scanner ont de 150 à 500 HU.
+scan-threshold-help = Ce qui a cette valeur ou plus est le vaisseau ; les vaisseaux opacifiés au scanner ont de 150 à 500 HU.
 scan-histogram = Histogramme, avec le seuil
 scan-vessel = Vaisseau
 scan-vessel-help = Quelle étiquette du masque est le vaisseau
@@ -34,7 +34,10 @@ scan-across-help = Dans quel sens se trouve la coupe affichée
 scan-slice = Coupe
 scan-preview = Aperçu
 scan-preview-help = La surface à résolution réduite
-scan-triangles = { $count } triangles
+scan-triangles = { $count ->
+    [one] { $count } triangle
+   *[other] { $count } triangles
+}
 scan-preview-coarse = L'aperçu a un voxel pour { $block }, dès que l'un d'eux est à l'intérieur : les vaisseaux fins paraissent plus larges qu'ils ne sont.
 scan-cancel = Annuler
 scan-cancel-help = Échap

@@ -3,7 +3,10 @@
 ## Le bandeau au-dessus des vues
 
 verdict-safe = Apte à la simulation
-verdict-nothing-wrong = Aucun défaut trouvé
+verdict-kept = Gardé là où mesuré
+verdict-none-measured = Aucun vaisseau mesuré
+# Un titre, et la part mesurée : « 82 % de la longueur, 28 sur 33 vaisseaux ».
+verdict-covered = { $head } : { $coverage }
 verdict-not-measured = Non mesuré
 verdict-coming = Mesure en cours...
 verdict-to-look-at = { $count ->
@@ -14,6 +17,8 @@ verdict-follows = Le calibre et la forme suivent.
 # Beside "Being measured..." while a level is shown that a finer one may follow.
 verdict-auto-follows = Recherche du taux sûr : la réduction peut encore reculer.
 verdict-stopped = La mesure a été annulée, ou le calcul s'est arrêté : modifier un réglage pour continuer.
+# $text is what is said of the surface, a sentence: that it is a sample.
+verdict-sample = Exemple : { $text }
 verdict-what-to-do = Que faire
 verdict-more = { $count ->
     [one] { $count } autre
@@ -25,6 +30,8 @@ verdict-notes = { $count ->
 }
 verdict-show-vessels = Voir vaisseaux
 verdict-show-vessels-help = Ce que chacun est devenu, et où (V)
+verdict-show-unmeasured = Non mesuré
+verdict-show-unmeasured-help = Ouvre les vaisseaux et va là où rien n'est mesuré ; la surface y est grise
 verdict-remedy-help = Aiderait ; peut être annulé
 verdict-show-place = Voir
 verdict-show-place-help = Va à l'endroit en question
@@ -88,6 +95,7 @@ verdict-crossing-before = { $count ->
     [one] { $count } triangle en croise d'autres ; { $before } avant la réduction.
    *[other] { $count } triangles en croisent d'autres ; { $before } avant la réduction.
 }
+verdict-narrower = À l'ouverture, la { $name } est plus étroite de { $percent } % que de part et d'autre, sur { $length } mm : { $reference }.
 verdict-few-iterations = Trop peu d'itérations pour cette bande passante : il en faut davantage pour lisser.
 verdict-shortfall-topology = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : en retirer davantage fermerait une extrémité ouverte ou pincerait un vaisseau
 verdict-shortfall-geometry = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : en retirer davantage replierait la surface sur elle-même
@@ -98,6 +106,7 @@ verdict-shortfall-complex = Cette surface ne descend pas au-dessous de { $reache
 verdict-place-hole = Trou
 verdict-place-here = Ici
 verdict-place-narrowed = Pincé
+verdict-place-narrower = { $percent } % plus étroit
 verdict-place-pinched = pincé
 verdict-place-lost = perdu
 verdict-place-shut = Fermé
@@ -108,6 +117,7 @@ verdict-safe-none-kept = le lissage lui-même change chaque vaisseau mesurable
 verdict-safe-none-measured = aucun vaisseau n'est mesurable
 verdict-safe-changed = À { $rate } %, la { $name } change de { $by } %, en ({ $x } ; { $y } ; { $z })
 verdict-safe-unmeasured = À { $rate } %, la { $name } n'est plus mesurable
+verdict-safe-uncovered = À { $rate } %, { $percent } % seulement de la longueur des vaisseaux sont mesurables
 
 ## Le filtre
 

@@ -33,6 +33,8 @@ vessels-column-vessel = Vaisseau
 vessels-column-vessel-help = Cliquer pour voir le rayon le long du vaisseau et aller là où il change le plus
 vessels-column-verdict = Verdict
 vessels-column-verdict-help = Indique s'il garde son calibre après réduction, dans la limite de la tolérance
+vessels-column-measured = Mesuré
+vessels-column-measured-help = La part de sa longueur où il est mesuré : ailleurs le verdict ne dit rien
 vessels-column-reduced = Réduit
 vessels-column-reduced-help = Le plus grand changement de son rayon, après réduction, par rapport à la surface à l'ouverture
 vessels-column-smoothed = Lissé
@@ -54,7 +56,14 @@ vessels-narrower = { $percent } % plus étroit
 vessels-wider = { $percent } % plus large
 vessels-narrower-over = { $percent } % plus étroit sur { $length } mm, à { $at } mm
 vessels-wider-over = { $percent } % plus large sur { $length } mm, à { $at } mm
+vessels-uneven-both = { $narrower } ; { $wider }
+# Le diamètre, la référence, et les endroits le long du vaisseau où elle est mesurée.
+vessels-reference-between = { $diameter } sur { $reference } mm, d'après les diamètres à { $from } et { $to } mm
+vessels-reference-at = { $diameter } sur { $reference } mm, d'après le diamètre à { $at } mm
+vessels-reference = { $diameter } sur { $reference } mm
 vessels-table = { $name }, tolérance { $tolerance } %
+# Le suit après une virgule.
+vessels-table-measured = mesuré sur { $coverage }
 
 ## Pourquoi un vaisseau n'est mesuré nulle part
 
@@ -67,6 +76,8 @@ vessels-at-ends = Il est trop court : tout entier à des extrémités ou à des
 ## Le rayon le long d'un vaisseau
 
 vessels-radius-head = Rayon le long de la { $name } :
+# Au-dessus : une portion plus étroite ou plus large que de part et d'autre, et ce à quoi elle est comparée.
+vessels-uneven = { $stretch } : { $reference }
 vessels-radius-along = Rayon le long de la { $name }
 vessels-as-opened = à l'ouverture
 vessels-smoothed = lissé
@@ -83,6 +94,8 @@ vessels-hover =
 ## Ce qu'ils sont devenus
 
 vessels-all-kept-short = gardés, à { $tolerance } %
+# Là où trop peu est mesuré.
+vessels-kept-short = gardés sur { $percent } %
 vessels-some-changed-short = { $changed ->
     [one] { $changed } sur { $all } changé
    *[other] { $changed } sur { $all } changés
@@ -96,15 +109,30 @@ vessels-all-kept = { $count ->
     [one] Le vaisseau garde son calibre à { $tolerance } % près.
    *[other] Les { $count } vaisseaux gardent leur calibre à { $tolerance } % près.
 }
+vessels-kept-of = { $count ->
+    [one] { $count } vaisseau sur { $all } a été mesuré : il garde son calibre à { $tolerance } % près.
+   *[other] { $count } vaisseaux sur { $all } ont été mesurés : ils gardent leur calibre à { $tolerance } % près.
+}
 vessels-changed = { $changed ->
-    [one] { $changed } vaisseau sur { $all } change de plus de { $tolerance } %.
-   *[other] { $changed } vaisseaux sur { $all } changent de plus de { $tolerance } %.
+    [one] { $changed } vaisseau mesuré sur { $all } change de plus de { $tolerance } %.
+   *[other] { $changed } vaisseaux mesurés sur { $all } changent de plus de { $tolerance } %.
 }
 vessels-changed-most = { $changed ->
-    [one] { $changed } vaisseau sur { $all } change de plus de { $tolerance } %, surtout la { $name } : { $by } %.
-   *[other] { $changed } vaisseaux sur { $all } changent de plus de { $tolerance } %, surtout la { $name } : { $by } %.
+    [one] { $changed } vaisseau mesuré sur { $all } change de plus de { $tolerance } %, surtout la { $name } : { $by } %.
+   *[other] { $changed } vaisseaux mesurés sur { $all } changent de plus de { $tolerance } %, surtout la { $name } : { $by } %.
 }
-vessels-little = Cela vaut pour { $percent } % de leur longueur : le reste est à des extrémités ou à des bifurcations, ou trop grossier.
+vessels-measured-over = Mesuré sur { $percent } % de la longueur ; pas sur { $parts }.
+# Après un titre ou un deux-points.
+vessels-coverage = { $percent } % de la longueur, { $measured } sur { $all ->
+    [one] { $all } vaisseau
+   *[other] { $all } vaisseaux
+}
+# Des parts de la longueur, énumérées après « pas sur ».
+vessels-parts = { $first }, { $rest }
+vessels-part-ends = { $percent } % aux extrémités
+vessels-part-forks = { $percent } % aux bifurcations
+vessels-part-thin = { $percent } % trop grossiers
+vessels-part-unclear = { $percent } % sans contour fermé unique
 vessels-by-smoothing = Le lissage seul en change déjà { $count } autant.
 vessels-unknown = { $count ->
     [one] Un autre est trop court ou trop grossier pour être mesuré.

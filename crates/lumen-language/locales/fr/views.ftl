@@ -25,7 +25,7 @@ views-axes-unknown = Axes inconnus
 ## La légende
 
 views-calibre = Variation de calibre
-views-calibre-note = Sans couleur : non mesuré
+views-calibre-note = non mesuré
 views-peak-force = Force maximale
 views-legend-more = { $value } et plus
 views-legend-less = { $value } et moins
@@ -108,7 +108,7 @@ views-news = { $count ->
 
 views-reduced = Lissée et réduite
 views-triangles = Ses triangles
-views-calibre-meaning = Variation de calibre, de { $from } % (sombre) à { $to } % (clair)
+views-calibre-meaning = Variation de calibre, de { $from } % (sombre) à { $to } % (clair) ; gris : non mesuré
 views-deviation-meaning = Écart, de { $from } mm (sombre) à { $to } mm (clair)
 
 ## Classes de sommets, d'après Schroeder
@@ -131,8 +131,14 @@ views-follow = Aller à chacune
 views-follow-help = La caméra va là où se trouve la suivante
 views-close = Fermer
 views-close-help = Plus de contractions (Échap)
-views-next-vertex = Ensuite, { $number } sur { $all } : un sommet de la classe « { $class } » rejoint un voisin ; { $before } triangles deviennent { $after }.
-views-next-edge = Ensuite, { $number } sur { $all } : une arête devient un sommet à sa propre place ; { $before } triangles deviennent { $after }.
+views-next-vertex = { $before ->
+    [one] Ensuite, { $number } sur { $all } : un sommet de la classe « { $class } » rejoint un voisin ; { $before } triangle devient { $after }.
+   *[other] Ensuite, { $number } sur { $all } : un sommet de la classe « { $class } » rejoint un voisin ; { $before } triangles deviennent { $after }.
+}
+views-next-edge = { $before ->
+    [one] Ensuite, { $number } sur { $all } : une arête devient un sommet à sa propre place ; { $before } triangle devient { $after }.
+   *[other] Ensuite, { $number } sur { $all } : une arête devient un sommet à sa propre place ; { $before } triangles deviennent { $after }.
+}
 views-next-error = Son erreur est de { $cost } mm : la moyenne quadratique des distances aux plans qu'il représente. La plus grande jusqu'ici est de { $largest } mm.
 views-next-error-line = Son erreur est de { $cost } mm : la moyenne quadratique des distances aux plans qu'il représente, ou sa distance à sa ligne si elle est plus grande. La plus grande jusqu'ici est de { $largest } mm.
 views-last-level = C'est le dernier niveau : aucun sommet ne peut plus disparaître.

@@ -3,7 +3,7 @@
 //!
 //! A level is *within* the bound when no point of it is farther than the bound from the finest level, and no point of
 //! the finest level is farther from it. That is decided for whole surfaces, not for samples
-//! ([`HausdorffBound`](lumen_mesh::Reach)): what is within is so for certain, what is not has a point that is farther than the
+//! ([`HausdorffBound`](lumen_mesh::HausdorffBound)): what is within is so for certain, what is not has a point that is farther than the
 //! bound less one part in a thousand.
 //!
 //! The deviation is not monotone in the level: a collapse may mend what another has done. So the search goes from the

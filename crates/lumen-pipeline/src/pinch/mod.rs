@@ -11,7 +11,7 @@
 //!   changes, with their signs, it is the change of the winding number about a sample, and where that falls below 1 the
 //!   sample lies outside, the vessel is lost, and the levels until it rises again are suspects.
 //!
-//! The suspects are looked at in order, from the finest, by the measure that the report uses (`super::lumen`): the first
+//! The suspects are looked at in order, from the finest, by the measure that the report uses (`lumen_vessel::width`): the first
 //! that it confirms is the answer.
 
 mod tree;
@@ -22,13 +22,13 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use self::tree::Tree;
-use super::lumen::{PINCHED, Sample, clearances, samples, worst};
 use super::progressive::{NEVER, ProgressiveMesh};
 use super::settings::{Target, reduction_percent};
 use super::task::{Yielder, at_once, blocks};
 use lumen_mesh::parallel;
-use lumen_mesh::{SurfaceIndex, Topology, TriMesh, Vec3, distance_to_triangle, inner_radii};
+use lumen_mesh::{Ball, SurfaceIndex, Topology, TriMesh, Vec3, distance_to_triangle, inner_radii};
 use lumen_message::messages;
+use lumen_vessel::width::{PINCHED, clearances, samples, worst};
 
 /// Triangles of a core that are followed between two looks at the clock.
 const TRIANGLES: usize = 128;
@@ -113,7 +113,7 @@ pub fn first_pinch(progressive: &ProgressiveMesh) -> Option<Pinch> {
 
 /// As [`first_pinch`], by these samples of the finest level. Rests every millisecond or so; taking a level and measuring the
 /// samples on it are one piece each, of up to 20 ns a triangle and 2 microseconds a sample.
-pub async fn first_pinch_of(progressive: &ProgressiveMesh, samples: &[Sample], yielder: &Yielder) -> Option<Pinch> {
+pub async fn first_pinch_of(progressive: &ProgressiveMesh, samples: &[Ball], yielder: &Yielder) -> Option<Pinch> {
     if samples.is_empty() {
         return None;
     }
@@ -141,15 +141,15 @@ pub async fn first_pinch_of(progressive: &ProgressiveMesh, samples: &[Sample], y
 }
 
 /// The vessel that is pinched most at this rate, if one is; `mesh` is the level.
-fn pinched(samples: &[Sample], rate: u32, mesh: &TriMesh, index: &SurfaceIndex) -> Option<Pinch> {
+fn pinched(samples: &[Ball], rate: u32, mesh: &TriMesh, index: &SurfaceIndex) -> Option<Pinch> {
     let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
     let clearances = clearances(samples, mesh, &topology, index);
     let (i, _) = worst(samples, &clearances).filter(|(_, ratio)| *ratio < PINCHED)?;
     Some(Pinch {
         from_percent: reduction_percent(1000, 1000 - rate as usize),
         triangles: mesh.triangles.len(),
-        at_mm: samples[i].at.to_array(),
-        diameter_before_mm: 2.0 * f64::from(samples[i].clearance),
+        at_mm: samples[i].centre.to_array(),
+        diameter_before_mm: 2.0 * f64::from(samples[i].radius),
         diameter_after_mm: 2.0 * f64::from(clearances[i]),
     })
 }
@@ -157,7 +157,7 @@ fn pinched(samples: &[Sample], rate: u32, mesh: &TriMesh, index: &SurfaceIndex) 
 /// The search for rates at which a vessel may be pinched.
 struct Search<'a> {
     progressive: &'a ProgressiveMesh,
-    samples: &'a [Sample],
+    samples: &'a [Ball],
     tree: Tree,
     /// Steps of the level at each rate.
     steps: Vec<u32>,
@@ -184,7 +184,7 @@ struct Followed {
 }
 
 impl<'a> Search<'a> {
-    fn new(progressive: &'a ProgressiveMesh, samples: &'a [Sample]) -> Self {
+    fn new(progressive: &'a ProgressiveMesh, samples: &'a [Ball]) -> Self {
         let count = progressive.triangles.len();
         let steps = |rate: u32| progressive.steps_to(Target::Reduction(rate).triangles(count));
         Self {
@@ -248,9 +248,9 @@ impl<'a> Search<'a> {
             if !rates.is_empty() {
                 let after = next.map(|v| positions[v as usize]);
                 let is_close = |&i: &u32| {
-                    let Sample { at, clearance } = self.samples[i as usize];
+                    let Ball { centre, radius } = self.samples[i as usize];
                     // A little more, for the rounding of the measure that decides.
-                    distance_to_triangle(at, after) <= f64::from(PINCHED * clearance) * (1.0 + 1e-5)
+                    distance_to_triangle(centre, after) <= f64::from(PINCHED * radius) * (1.0 + 1e-5)
                 };
                 if near.iter().any(is_close) {
                     found.close.push(rates);
@@ -286,10 +286,10 @@ impl<'a> Search<'a> {
 
 /// What becomes of a sample when the triangle `before` becomes the one, or those, with a corner at `to`: 1 where the
 /// surface passes over it outwards, -1 inwards, 0 where it does not.
-fn passes_over(sample: &Sample, before: [Vec3; 3], to: Vec3) -> i32 {
+fn passes_over(sample: &Ball, before: [Vec3; 3], to: Vec3) -> i32 {
     // A hair aside, so that the faces of no symmetric surface go through it.
-    let aside = DVec3::new(0.571, 0.312, 0.759) * (1e-6 * f64::from(sample.clearance));
-    let p = sample.at.as_dvec3() + aside;
+    let aside = DVec3::new(0.571, 0.312, 0.759) * (1e-6 * f64::from(sample.radius));
+    let p = sample.centre.as_dvec3() + aside;
     let [a, b, c] = before.map(Vec3::as_dvec3);
     let d = to.as_dvec3();
     let volume = |a: DVec3, b: DVec3, c: DVec3, d: DVec3| (b - a).cross(c - a).dot(d - a);
@@ -308,14 +308,14 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::lumen::narrowing;
     use crate::progressive::{Limit, Merge};
     use crate::run::Pipeline;
     use crate::settings::{Decimation, Method, Settings, Smoothing};
     use crate::task::{Budget, Progress, Running};
     use lumen_mesh::shapes::{icosphere, joined, square, tube};
+    use lumen_vessel::width::narrowing;
 
-    fn samples_of(mesh: &TriMesh) -> Vec<Sample> {
+    fn samples_of(mesh: &TriMesh) -> Vec<Ball> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
         samples(mesh, &topology, &inner_radii(mesh, &topology, &index), &index)
@@ -334,7 +334,7 @@ mod tests {
     }
 
     /// The first rate in tenths of a percent at which a look at the whole level finds a vessel pinched: one by one.
-    fn by_looking(progressive: &ProgressiveMesh, samples: &[Sample]) -> Option<u32> {
+    fn by_looking(progressive: &ProgressiveMesh, samples: &[Ball]) -> Option<u32> {
         let mut before = 0;
         (1..=Target::MAX_PER_MILLE).find(|&rate| {
             let level = progressive.level(Target::Reduction(rate));

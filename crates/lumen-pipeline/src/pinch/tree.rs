@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::lumen::{PINCHED, Sample};
-use lumen_mesh::Vec3;
+use lumen_mesh::{Ball, Vec3};
+use lumen_vessel::width::PINCHED;
 
 /// Samples in a leaf of the tree.
 const LEAF: usize = 4;
@@ -21,10 +21,10 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    pub(super) fn new(samples: &[Sample]) -> Self {
-        let around = |sample: &Sample| {
-            let reach = Vec3::splat(sample.clearance * PINCHED * 1.0001);
-            [sample.at - reach, sample.at + reach]
+    pub(super) fn new(samples: &[Ball]) -> Self {
+        let around = |sample: &Ball| {
+            let reach = Vec3::splat(sample.radius * PINCHED * 1.0001);
+            [sample.centre - reach, sample.centre + reach]
         };
         let depth = samples.len().div_ceil(LEAF).next_power_of_two().ilog2();
         let mut tree = Self {

@@ -5,7 +5,7 @@
 //! the vessel shut, one whose pass band holds them leaves it as wide as it is. At an open end the rim is smoothed along
 //! itself, where the same wave has `k = 1 - cos(h / r)`.
 //!
-//! `r` is the width of the vessel at the vertex (`super::super::widths`).
+//! `r` is the width of the vessel at the vertex (`lumen_vessel::width`).
 
 use crate::settings::Smoothing;
 use crate::task::{Yielder, blocks};
@@ -68,10 +68,11 @@ fn band(mesh: &TriMesh, topology: &Topology, widths: &[f32], v: u32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::response::{edge_length, eigenvalue};
+    use crate::response::eigenvalue;
     use crate::task::at_once;
-    use crate::widths::widths;
+    use lumen_mesh::rms_edge;
     use lumen_mesh::shapes::{square, tube};
+    use lumen_vessel::width::widths;
 
     fn bands(mesh: &TriMesh) -> Vec<f32> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
@@ -83,7 +84,7 @@ mod tests {
     fn in_a_tube_it_is_that_of_the_wave_around_it() {
         for radius in [1.5, 3.0, 8.0] {
             let mesh = tube(48, 60, 60.0 * radius * 0.13, |_| radius);
-            let k = eigenvalue(2.0 * std::f64::consts::PI * f64::from(radius), edge_length(&mesh));
+            let k = eigenvalue(2.0 * std::f64::consts::PI * f64::from(radius), rms_edge(&mesh));
             let found = bands(&mesh);
             // Away from the rims, whose waves are of another kind.
             let inside = &found[48 * 20..48 * 40];

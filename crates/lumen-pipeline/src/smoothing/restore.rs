@@ -22,11 +22,10 @@ use glam::Vec3;
 use super::Stencil;
 use super::volume::directions;
 use crate::normals::{Weighting, vertex_normals};
-use crate::response::edge_length;
 use crate::results::Surface;
 use crate::settings::Smoothing;
 use crate::task::{Yielder, blocks};
-use lumen_mesh::parallel;
+use lumen_mesh::{parallel, rms_edge};
 
 /// Means with the neighbours. They reach as far as around vessels of some five edges' radius; of a wave of four edges
 /// they leave less than a hundredth.
@@ -95,7 +94,7 @@ pub(crate) async fn restore(
 /// What smoothing took at each vertex, in mm, positive where the surface moved inwards; `before` and `after` are its normals.
 fn losses(kept: &Surface, before: &[Vec3], smoothed: &[Vec3], after: &[Vec3]) -> Vec<f32> {
     let opened = &kept.mesh.positions;
-    let typical = edge_length(&kept.mesh) as f32;
+    let typical = rms_edge(&kept.mesh) as f32;
     let loss = |v: usize| {
         let loss = (opened[v] - smoothed[v]).dot((before[v] + after[v]).normalize_or_zero());
         // What moved by more than an edge was no vessel's wall: a flap, a short slit drawn together, or a spike, whose own

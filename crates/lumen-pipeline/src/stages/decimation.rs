@@ -8,7 +8,7 @@ use crate::decimation::{Decimated, Holds, decimate_in_slices, labels_of};
 use crate::results::Levels;
 use crate::stage::Stage;
 use crate::store::Store;
-use crate::widths::widths;
+use lumen_vessel::width::widths;
 
 pub(super) const ROW: Row = Row {
     needs: &[Stage::Smoothing],

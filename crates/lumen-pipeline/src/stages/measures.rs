@@ -6,13 +6,14 @@
 use std::sync::Arc;
 
 use super::{Row, Run};
-use crate::lumen::{Sample, narrowing, samples_in_slices};
 use crate::pinch::first_pinch_of;
 use crate::results::{LevelMeasures, SmoothedMeasures};
 use crate::settings::Target;
 use crate::shape::{Known, shape_in_slices};
 use crate::stage::{Stage, Wanted};
 use crate::store::Store;
+use lumen_mesh::Ball;
+use lumen_vessel::width::{narrowing, samples_in_slices};
 
 /// The part of the work that the smoothed surface is, where it is to be measured.
 const SMOOTHED: f32 = 0.9;
@@ -65,7 +66,7 @@ pub(super) const OF_LEVEL: Row = Row {
 fn start_level(store: &Store) -> Option<Run> {
     let now = &store.now;
     let (reduced, levels) = (now.reduced.clone()?, now.levels.clone()?);
-    let samples: Arc<[Sample]> = now.smoothed_measures.as_ref()?.samples.clone();
+    let samples: Arc<[Ball]> = now.smoothed_measures.as_ref()?.samples.clone();
     let index = now.indices.level.clone().map(|index| (reduced.mesh.clone(), index));
     Some(Run::new(move |yielder, outbox| async move {
         let (mesh, topology) = (&reduced.mesh, &reduced.topology);

@@ -6,7 +6,7 @@ use web_time::Instant;
 
 use super::{Outbox, Row, Run};
 use crate::filter::Filter;
-use crate::response::{SmoothingResponse, edge_length};
+use crate::response::SmoothingResponse;
 use crate::results::{Adapted, Smoothed, Surface};
 use crate::settings::Smoothing;
 use crate::smoothing::{
@@ -17,8 +17,8 @@ use crate::stage::Stage;
 use crate::store::Store;
 use crate::task::Yielder;
 use crate::times::Part;
-use crate::widths::widths;
-use lumen_mesh::{SurfaceIndex, TriMesh, Vec3, measures_within};
+use lumen_mesh::{SurfaceIndex, TriMesh, Vec3, measures_within, rms_edge};
+use lumen_vessel::width::widths;
 
 pub(super) const ROW: Row = Row {
     needs: &[Stage::Connectivity],
@@ -149,7 +149,7 @@ impl Filtering {
         let begun = Instant::now();
         let measures = measures_within(&mesh, self.kept.loops.as_deref());
         outbox.tell_apart(Part::SmoothedAreas, begun);
-        let response = SmoothingResponse::new(&self.filter, self.settings.pass_band, edge_length(&mesh));
+        let response = SmoothingResponse::new(&self.filter, self.settings.pass_band, rms_edge(&mesh));
         // What is put back has the volume that it had.
         let change = self.kept.measures.volume_mm3.zip(measures.volume_mm3).map(|(before, after)| after / before - 1.0);
         let is_held = weakened.is_none() || change.is_some_and(|change| change.abs() <= VOLUME_TOLERANCE);

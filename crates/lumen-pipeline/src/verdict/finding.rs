@@ -8,7 +8,10 @@ use super::super::settings::{Preset, Settings};
 use super::super::warnings::{DrawnShut, Pinches, VolumeNotHeld, VolumeWarning};
 use lumen_io::{Unit, UnusualSize, Warning};
 use lumen_mesh::mending::MendWarning;
-use lumen_vessel::summary::{CalibreSummary, PlaceText};
+use lumen_vessel::BranchName;
+use lumen_vessel::certificate::Coverage;
+use lumen_vessel::summary::{CalibreSummary, CoverageText, PlaceText};
+use lumen_vessel::variation::ReferenceText;
 
 messages! {
     /// What there is to say of a result, in one or two sentences.
@@ -35,7 +38,12 @@ messages! {
         "verdict-crowded" Crowded {
             /// At how many edges and points.
             count: usize,
-        } => { format!("At {} edges and points surfaces meet that should be apart.", grouped(count)) },
+        } => {
+            match count {
+                1 => "At 1 edge or point surfaces meet that should be apart.".to_owned(),
+                _ => format!("At {} edges and points surfaces meet that should be apart.", grouped(count)),
+            }
+        },
         /// Much of the surface is left out.
         "verdict-left-out" LeftOut {
             /// The part of its area, in percent.
@@ -66,14 +74,36 @@ messages! {
         "verdict-crossing" Crossing {
             /// How many.
             count: usize,
-        } => { format!("{} triangles run into others.", grouped(count)) },
+        } => {
+            match count {
+                1 => "1 triangle runs into others.".to_owned(),
+                _ => format!("{} triangles run into others.", grouped(count)),
+            }
+        },
         /// Triangles cross, and some did before the reduction.
         "verdict-crossing-before" CrossingBefore {
             /// How many do now.
             count: usize,
             /// How many did.
             before: usize,
-        } => { format!("{} triangles run into others; {} did before the reduction.", grouped(count), grouped(before)) },
+        } => {
+            let (now, did) = (grouped(count), grouped(before));
+            match count {
+                1 => format!("{now} triangle runs into others; {did} did before the reduction."),
+                _ => format!("{now} triangles run into others; {did} did before the reduction."),
+            }
+        },
+        /// A vessel is narrower than on either side.
+        "verdict-narrower" Narrower {
+            /// Which.
+            name: BranchName,
+            /// By how much of its diameter, in percent.
+            percent: f64 [0],
+            /// Over which length, in mm.
+            length: f64 [1],
+            /// What is left, and of what.
+            reference: ReferenceText,
+        } => "As opened, {name} is {percent:.0} % narrower over {length:.1} mm than on either side: {reference}.",
         /// The filter misses its pass band.
         "verdict-few-iterations" FewIterations =>
             "Too few iterations for this pass band: more are needed to smooth.",
@@ -121,6 +151,11 @@ messages! {
         "verdict-place-here" Here => "Here",
         /// A vessel is narrower than it was.
         "verdict-place-narrowed" Narrowed => "Pinched",
+        /// A vessel is narrower than on either side.
+        "verdict-place-narrower" Narrower {
+            /// By how much of its diameter, in percent.
+            percent: f64 [0],
+        } => "{percent:.0} % narrower",
         /// A vessel is pinched.
         "verdict-place-pinched" Pinched => "pinched",
         /// A vessel is lost.
@@ -231,8 +266,10 @@ messages! {
     pub enum Head {
         /// A trial may rest on the result.
         "verdict-safe" Safe => "Safe to simulate on",
-        /// Nothing is wrong, as far as it is known.
-        "verdict-nothing-wrong" NothingWrong => "Nothing wrong was found",
+        /// Nothing is wrong, but too little is measured to say so of the whole surface.
+        "verdict-kept" KeptWhereMeasured => "Kept where measured",
+        /// Nothing is wrong, but no calibre is measured.
+        "verdict-none-measured" NoneMeasured => "No vessel was measured",
         /// The measuring has stopped.
         "verdict-not-measured" NotMeasured => "Not measured",
         /// The measuring goes on.
@@ -245,13 +282,32 @@ messages! {
     }
 }
 
+messages! {
+    /// A head, with what it rests on.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum HeadText {
+        /// How much is measured.
+        "verdict-covered" Covered {
+            /// The head.
+            head: Head,
+            /// How much.
+            coverage: CoverageText,
+        } => "{head}: {coverage}",
+    } or {
+        /// Nothing that it rests on.
+        Alone(Head),
+    }
+}
+
 /// The verdict on a result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// In a few words.
     pub head: Head,
-    /// Whether a trial may rest on it; `None` while that is not known.
+    /// Whether a trial may rest on it; `None` while that is not known, and where too little is measured to say.
     pub is_safe: Option<bool>,
+    /// How much of the vessels is measured; `None` where they are not measured.
+    pub coverage: Option<Coverage>,
     /// What is said of the vessels; `None` where they are not measured.
     pub calibre: Option<CalibreSummary>,
     /// Grave ones first, in the order of their weight.
@@ -259,10 +315,24 @@ pub struct Verdict {
 }
 
 impl Verdict {
+    /// The head, with how much is measured where it speaks of that.
+    pub fn head_text(&self) -> HeadText {
+        let head = self.head;
+        match (head, self.coverage) {
+            (Head::Safe | Head::KeptWhereMeasured, Some(found)) => HeadText::Covered { head, coverage: found.text() },
+            _ => HeadText::Alone(head),
+        }
+    }
+
+    /// Whether it is known that a trial had better not rest on the result, or that too little is measured to say.
+    pub fn has_reservations(&self) -> bool {
+        matches!(self.head, Head::ToLookAt { .. } | Head::KeptWhereMeasured | Head::NoneMeasured)
+    }
+
     /// The head, and what is weightiest: a sentence each, as `say` says them.
     pub fn in_short(&self, say: impl Fn(&dyn Message) -> String) -> String {
         let grave = self.findings.first().filter(|finding| finding.is_grave).map(|finding| say(&finding.what));
-        let head = say(&self.head);
+        let head = say(&self.head_text());
         let head = head.trim_end_matches('.');
         match grave.or_else(|| Some(say(self.calibre.as_ref()?))) {
             Some(text) => format!("{head}. {text}"),

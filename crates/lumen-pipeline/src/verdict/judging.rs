@@ -67,6 +67,7 @@ impl Verdict {
             findings.extend(of_report(known, report));
         }
         findings.extend(calibre(known));
+        findings.extend(narrower(known));
         let of_file = known.import.warnings.iter().filter(|warning| !matches!(warning, Warning::Size(_)));
         findings.extend(
             of_file
@@ -74,17 +75,25 @@ impl Verdict {
         );
         findings.sort_by_key(|finding| !finding.is_grave);
         let grave = findings.iter().filter(|finding| finding.is_grave).count();
+        let certificate = known.calibre.and_then(|found| found.as_ref().ok());
+        let coverage = certificate.map(|found| found.coverage);
         let is_known = known.report.is_some() && known.calibre.is_some();
-        let is_measured = matches!(known.calibre, Some(Ok(found)) if found.verdict == Calibre::Kept);
+        let is_kept = certificate.is_some_and(|found| found.verdict == Calibre::Kept);
+        let is_covered = coverage.is_some_and(|found| found.is_enough());
         let head = match grave {
-            0 if is_known && is_measured => Head::Safe,
-            0 if is_known || known.rest == Rest::NotAsked => Head::NothingWrong,
+            0 if is_known && is_kept && is_covered => Head::Safe,
+            0 if is_known && is_kept => Head::KeptWhereMeasured,
+            0 if is_known || known.rest == Rest::NotAsked => Head::NoneMeasured,
             0 if known.rest == Rest::Stopped => Head::NotMeasured,
             0 => Head::Coming,
             count => Head::ToLookAt { count },
         };
-        let is_safe = if grave > 0 { Some(false) } else { is_known.then_some(is_measured) };
-        Self { head, is_safe, calibre: known.calibre.map(summary), findings }
+        let is_safe = match head {
+            Head::Safe => Some(true),
+            Head::ToLookAt { .. } => Some(false),
+            _ => None,
+        };
+        Self { head, is_safe, coverage, calibre: known.calibre.map(summary), findings }
     }
 
     /// On a run that is over: `report` is of what `pipeline` has made.
@@ -256,6 +265,17 @@ fn calibre(known: &Known<'_>) -> Option<Finding> {
         None => finding,
     };
     Some(finding.helped_by(help.or_else(|| less(known))))
+}
+
+/// The stretch that is most narrower than on either side, as opened.
+fn narrower(known: &Known<'_>) -> Option<Finding> {
+    let certificate = known.calibre?.as_ref().ok()?;
+    let each = certificate.branches.iter().filter_map(|branch| Some((branch, branch.uneven()[0]?)));
+    let most = each.reduce(|most, next| if next.1.degree_percent > most.1.degree_percent { next } else { most });
+    let (branch, found) = most?;
+    let (percent, length) = (found.degree_percent, found.length_mm);
+    let what = FindingKind::Narrower { name: branch.label(), percent, length, reference: found.reference() };
+    Some(Finding::note(what).at(found.at_mm, found.diameter_mm, PlaceLabel::Narrower { percent }))
 }
 
 /// How wide a branch is at a place, in mm.

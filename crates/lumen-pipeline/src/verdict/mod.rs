@@ -6,6 +6,6 @@ mod finding;
 mod judging;
 mod written;
 
-pub use finding::{Finding, FindingKind, Head, Place, PlaceLabel, Remedied, Remedy, RemedyLabel, Verdict};
+pub use finding::{Finding, FindingKind, Head, HeadText, Place, PlaceLabel, Remedied, Remedy, RemedyLabel, Verdict};
 pub use judging::{Known, Rest, rate};
 pub use written::{FindingReport, PlaceReport, RemedyReport, VerdictReport};

@@ -8,9 +8,9 @@ use lumen_vessel::summary::CalibreSummary;
 /// The verdict on a result.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VerdictReport {
-    /// In a few words.
+    /// In a few words, with how much is measured.
     pub head: String,
-    /// Whether a trial may rest on it; null while that is not known.
+    /// Whether a trial may rest on it; null while that is not known, and where too little is measured to say.
     pub is_safe: Option<bool>,
     /// What is said of the vessels; null where they are not measured.
     pub calibre: Option<String>,
@@ -54,7 +54,7 @@ pub struct RemedyReport {
 impl From<&Verdict> for VerdictReport {
     fn from(verdict: &Verdict) -> Self {
         Self {
-            head: verdict.head.to_string(),
+            head: verdict.head_text().to_string(),
             is_safe: verdict.is_safe,
             calibre: verdict.calibre.as_ref().map(CalibreSummary::to_string),
             findings: verdict.findings.iter().map(FindingReport::from).collect(),

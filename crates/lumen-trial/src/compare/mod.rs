@@ -21,9 +21,9 @@ use super::summary::Summary;
 use super::wall::Wall;
 use lumen_mesh::{TriMesh, shuffled};
 use lumen_message::{Message as _, Told};
-use lumen_pipeline::lumen::PINCHED;
 use lumen_pipeline::results::fingerprint;
 use lumen_pipeline::task::milliseconds;
+use lumen_vessel::width::PINCHED;
 
 /// Length of a part of the route whose largest forces are compared, in mm.
 const PART: f64 = 5.0;

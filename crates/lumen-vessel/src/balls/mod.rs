@@ -10,10 +10,10 @@ mod cells;
 use glam::Vec3;
 
 use self::cells::{Grid, Wall};
-use super::space::{Ball, Space};
+use super::space::Space;
 use lumen_mesh::disjoint_sets::{root, union};
 use lumen_mesh::task::Yielder;
-use lumen_mesh::{Nearest, TriMesh};
+use lumen_mesh::{Ball, Nearest, TriMesh, mean_edge};
 
 /// Two balls closer than this part of the smaller radius are the same.
 const SAME: f32 = 0.4;
@@ -100,15 +100,6 @@ struct Filling {
     /// Smaller balls are not gone on with: from a crevice it would go ever deeper. What is thinner is begun from its own
     /// wall.
     floor: f32,
-}
-
-pub(super) fn mean_edge(mesh: &TriMesh) -> f32 {
-    let around = |t: usize| {
-        let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
-        a.distance(b) + b.distance(c) + c.distance(a)
-    };
-    let sum: f64 = (0..mesh.triangles.len()).map(around).sum();
-    (sum / (3 * mesh.triangles.len()).max(1) as f64) as f32
 }
 
 fn vertex_normals(mesh: &TriMesh) -> Vec<Vec3> {
@@ -447,7 +438,7 @@ mod tests {
         let links: Vec<[u32; 2]> = steps(0).chain(steps(12)).chain([[0, 12]]).collect();
         let (is_passing, group) = (vec![false; balls.len()], vec![0; balls.len()]);
         let graph = Graph::new(Balls { balls, is_passing, links, group, ..Balls::default() });
-        let paths = graph.tree(0, |_| false);
+        let paths = graph.tree(0, |_| false).paths;
         assert_eq!(paths.len(), 1, "{paths:?}");
     }
 }

@@ -7,15 +7,15 @@ use glam::DVec3;
 use super::branch::branch_calibre;
 use super::unit::{CalibreError, checked};
 use super::{BranchCalibre, Certificate};
-use crate::balls::mean_edge;
-use crate::calibre::{Calibre, Known, Subject, circle, measure};
+use crate::calibre::{Calibre, Known, Subject, measure};
 use crate::centrelines::{Centrelines, settled};
 use crate::locating::Located;
 use crate::stations::{Station, Stations};
 use crate::tree::{Branch, Tree};
+use crate::width::circle;
 use crate::zones::Zone;
-use lumen_mesh::SurfaceIndex;
 use lumen_mesh::task::Yielder;
+use lumen_mesh::{SurfaceIndex, mean_edge};
 
 /// What more reduced surfaces are judged by: where the opened surface is measured, and what it and the smoothed one have
 /// there.
@@ -98,6 +98,8 @@ impl Basis {
             stations: self.stations.clone(),
             calibres: self.calibres[0].clone(),
             zones: self.zones.clone(),
+            bumps: self.tree.bumps,
+            openings_without_branch: self.tree.openings_without_branch(),
         }
     }
 

@@ -2,10 +2,11 @@
 
 use super::stretch::stretches;
 use super::{BranchCalibre, Change, OnSurface, Spread, StationStatus, Verdict};
-use crate::calibre::{Calibre, circle};
+use crate::calibre::Calibre;
 use crate::stations::Station;
 use crate::tree::Branch;
 use crate::variation::{Along, variations};
+use crate::width::circle;
 use crate::zones::Zone;
 
 /// A vessel is measured from so many mean edges of diameter on.

@@ -22,6 +22,7 @@
 
 mod basis;
 mod branch;
+mod coverage;
 mod stretch;
 mod unit;
 
@@ -30,12 +31,13 @@ use std::fmt::Write as _;
 use serde::{Deserialize, Serialize};
 
 pub use basis::Basis;
+pub use coverage::{Coverage, ENOUGH_PERCENT};
 pub use unit::CalibreError;
 pub(super) use unit::checked;
 
 use super::BranchName;
 pub use super::on_surface::{Change, OnSurface, Spread, SpreadText, StationStatus};
-use super::variation::{Kind, Variation};
+use super::variation::{Kind, UnevenText, Variation, greatest};
 use lumen_message::messages;
 
 /// The change in percent that a vessel is allowed, unless it is said otherwise.
@@ -98,6 +100,8 @@ pub struct Certificate {
     pub tolerance_percent: f64,
     /// Changed where one branch is; kept where the others are.
     pub verdict: Verdict,
+    /// How much of them that is said of.
+    pub coverage: Coverage,
     /// The branches, a parent before its branches.
     pub branches: Vec<BranchCalibre>,
 }
@@ -113,7 +117,7 @@ impl Certificate {
         } else {
             Verdict::NotMeasured
         };
-        Self { tolerance_percent, verdict, branches }
+        Self { tolerance_percent, verdict, coverage: Coverage::of(&branches), branches }
     }
 
     /// A row a station, in the order of the branches. A field is empty where a cross-section does not close.
@@ -151,9 +155,18 @@ impl BranchCalibre {
         BranchName::Numbered { number: self.number }
     }
 
-    /// The stretch that is most narrower or wider than on either side.
-    pub fn most_uneven(&self) -> Option<&Variation> {
-        self.variations.iter().max_by(|a, b| a.degree_percent.total_cmp(&b.degree_percent))
+    /// The stretches that are most narrower and most wider than on either side: a narrowing first, for it is measured by what is
+    /// left, and a widening, whose degree has no upper end, would hide it.
+    pub fn uneven(&self) -> [Option<&Variation>; 2] {
+        [Kind::Narrower, Kind::Wider].map(|kind| greatest(&self.variations, kind))
+    }
+
+    /// These in words; `None` where there is neither.
+    pub fn uneven_text(&self) -> Option<UnevenText> {
+        match self.uneven().map(|found| found.map(Variation::text)) {
+            [Some(narrower), Some(wider)] => Some(UnevenText::Both { narrower, wider }),
+            [one, other] => one.or(other).map(UnevenText::One),
+        }
     }
 
     /// The degree in percent, below 0 where it is narrower, of the stretch at this arc length; `None` outside of any.
@@ -161,11 +174,4 @@ impl BranchCalibre {
         let found = self.variations.iter().find(|found| (found.from_mm..=found.to_mm).contains(&abscissa_mm))?;
         Some(if found.kind == Kind::Narrower { -found.degree_percent } else { found.degree_percent })
     }
-}
-
-/// The part of these vessels that is measured, by stations, in percent; `None` without a station.
-pub fn measured_percent(branches: &[BranchCalibre]) -> Option<f64> {
-    let counted: usize = branches.iter().map(|branch| branch.stations_counted).sum();
-    let all: usize = branches.iter().map(|branch| branch.standings.len()).sum();
-    (all > 0).then(|| 100.0 * counted as f64 / all as f64)
 }

@@ -1,8 +1,9 @@
 //! The radius of a stretch of a vessel as long as the vessel is wide, from the areas of its cross-sections.
 
 use super::StationStatus;
-use crate::calibre::{Calibre, circle};
+use crate::calibre::Calibre;
 use crate::stations::Station;
+use crate::width::circle;
 
 /// Least half length of the stretch that a radius is of, in mean edges.
 const WINDOW_EDGES: f64 = 4.0;

@@ -301,6 +301,7 @@ fn peak_legend(most: f32) -> Legend {
         is_open: false,
         is_open_below: false,
         note: String::new(),
+        patch: None,
         is_diverging: false,
         has_histogram: false,
     }

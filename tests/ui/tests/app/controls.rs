@@ -7,7 +7,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::pipeline::filter::Filter;
 use lumen::pipeline::settings::{Method, Target, Window};
-use lumen_ui_tests::{DESKTOP, app, app_in_full, says, settle};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, says, settle, unfold};
 
 pub(crate) fn open() -> Harness<'static, LumenApp> {
     let (mut harness, _) = app_in_full(DESKTOP);
@@ -178,6 +178,7 @@ fn the_other_method_leaves_less_deviation() {
         document.measured.as_ref().unwrap().report.deviation_mm.unwrap().mean
     };
     let (count, before) = (shown(&harness), mean(&harness));
+    unfold(&mut harness, "Advanced: Reduce");
     choose(&mut harness, "Method", "Quadric");
     settle(&mut harness);
     assert_eq!(harness.state().state().settings.decimation.method, Method::Quadric);
@@ -204,10 +205,8 @@ fn smoothing_is_set_by_slider_field_and_list_and_goes_back() {
     assert!((harness.state().state().settings.smoothing.pass_band - 0.01).abs() < 1e-12);
     type_into(&mut harness, "Iterations value", "30");
     assert_eq!(harness.state().state().settings.smoothing.iterations, 30);
-    harness.get_by_role_and_label(Role::ComboBox, "Window").click();
-    harness.run_steps(2);
-    harness.get_by_label("Nuttall").click();
-    harness.run_steps(2);
+    unfold(&mut harness, "Advanced: Smooth");
+    choose(&mut harness, "Window", "Nuttall");
     assert_eq!(harness.state().state().settings.smoothing.window, Window::Nuttall);
     settle(&mut harness);
     let measured = harness.state().state().document.as_ref().unwrap().measured.as_ref().unwrap();
@@ -328,6 +327,9 @@ fn the_terms_add_up_on_the_curve_and_laplacian_smoothing_stands_beside_it() {
 #[test]
 fn the_volume_is_held_when_the_box_is_ticked() {
     let mut harness = open();
+    unfold(&mut harness, "Advanced: Smooth");
+    harness.get_by_role_and_label(Role::CheckBox, "Preserve volume").scroll_to_me();
+    harness.run_steps(12);
     harness.get_by_role_and_label(Role::CheckBox, "Preserve volume").click();
     settle(&mut harness);
     let measured = harness.state().state().document.as_ref().unwrap().measured.clone().unwrap();
@@ -339,6 +341,7 @@ fn the_volume_is_held_when_the_box_is_ticked() {
 fn thin_vessels_are_spared_when_the_box_is_ticked() {
     let mut harness = open();
     let before = harness.state().state().document.as_ref().unwrap().levels.clone().unwrap().1;
+    unfold(&mut harness, "Advanced: Reduce");
     harness.get_by_role_and_label(Role::CheckBox, "Spare thin vessels").scroll_to_me();
     harness.run_steps(12);
     harness.get_by_role_and_label(Role::CheckBox, "Spare thin vessels").click();
@@ -352,6 +355,7 @@ fn thin_vessels_are_spared_when_the_box_is_ticked() {
 #[test]
 fn the_feature_angle_is_set() {
     let mut harness = open();
+    unfold(&mut harness, "Advanced: Reduce");
     type_into(&mut harness, "Feature angle value", "15");
     settle(&mut harness);
     assert!((harness.state().state().settings.decimation.feature_angle - 15.0).abs() < 1e-12);

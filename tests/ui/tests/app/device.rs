@@ -65,7 +65,8 @@ fn another_device_shows_what_stood_on_the_one_that_was_lost() {
     assert!(notice.is_some(), "the user is told");
     assert_eq!(window.harness.state().look(|app| app.state().settings.clone()), settings);
     let after = views(&mut window);
-    let differing = before.chunks_exact(4).zip(after.chunks_exact(4)).filter(|(a, b)| a != b).count();
+    // By more than a rounding: letters lie elsewhere in the texture that they are drawn from.
+    let differing = before.iter().zip(&after).filter(|(a, b)| a.abs_diff(**b) > 1).count();
     assert_eq!((before.len(), differing), (after.len(), 0), "the same picture");
     assert_eq!(*window.end.borrow(), None);
 

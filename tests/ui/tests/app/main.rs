@@ -23,6 +23,7 @@ mod recovery;
 mod reveal;
 mod scans;
 mod sharing;
+mod sight;
 mod spoken;
 mod targets;
 mod teaching;

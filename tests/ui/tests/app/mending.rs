@@ -4,15 +4,19 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, PHONE, app, open, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, PHONE, app, open, says, settle, settle_wholly, tube, unfold};
 
 fn press(harness: &mut Harness<'_, LumenApp>, role: Role, label: &str) {
+    if role != Role::Button || label.contains(": ") {
+        harness.get_by_role_and_label(role, label).scroll_to_me();
+        harness.run_steps(12);
+    }
     harness.get_by_role_and_label(role, label).click();
     harness.run_steps(3);
 }
 
 /// A tube of 4 mm and 40 mm with two holes and a fin.
-fn faulty() -> Vec<u8> {
+pub(crate) fn faulty() -> Vec<u8> {
     let text = String::from_utf8(tube(4.0, 40.0, 1.0)).unwrap();
     let faces = text.lines().filter(|line| line.starts_with('f')).count();
     let around = (std::f64::consts::TAU * 4.0).ceil() as usize;
@@ -65,6 +69,9 @@ fn holes_and_fins_are_listed_shown_one_after_the_other_and_mended() {
     let (mut harness, memory) = app(DESKTOP);
     settle(&mut harness);
     open(&mut harness, &memory, "faulty.obj", faulty());
+    assert!(says(&harness, "needs mending"), "the folded step says it");
+    unfold(&mut harness, "Surface");
+    assert!(!says(&harness, "needs mending"));
     assert!(says(&harness, "up to 2.8 mm") && says(&harness, "Crowded edges"));
     let before = *harness.state().camera();
     press(&mut harness, Role::Button, "Show: holes");
@@ -110,6 +117,8 @@ fn a_wall_is_told_and_its_lumen_taken_at_a_click() {
 fn a_sound_file_has_nothing_to_mend_and_the_section_is_folded() {
     let (mut harness, _) = app(DESKTOP);
     settle_wholly(&mut harness);
+    assert!(!says(&harness, "needs mending"));
+    unfold(&mut harness, "Surface");
     assert!(says(&harness, "Mending") && !says(&harness, "Take the lumen"));
     press(&mut harness, Role::DisclosureTriangle, "Mending");
     harness.run_steps(30);
@@ -121,6 +130,7 @@ fn a_phone_has_room_for_it() {
     let (mut harness, memory) = app(PHONE);
     settle(&mut harness);
     open(&mut harness, &memory, "faulty.obj", faulty());
+    unfold(&mut harness, "Surface");
     picture(&mut harness, "mending-phone");
     let button = harness.get_by_role_and_label(Role::Button, "Show: holes").rect();
     assert!(button.right() <= PHONE[0] && button.left() >= 0.0);

@@ -6,13 +6,14 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{DESKTOP, app, app_in_full, offered, says, settle};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, offered, says, settle, unfold};
 
 use crate::controls::{open, press_at, shown};
 
 #[test]
 fn another_piece_is_chosen_in_the_list() {
     let mut harness = open();
+    unfold(&mut harness, "Surface");
     harness.get_by_role_and_label(Role::ComboBox, "Piece").click();
     harness.run_steps(2);
     harness.get_by_label("All pieces").click();

@@ -1,11 +1,11 @@
-//! Presenter mode: larger letters, no panel, keys and pointer shown; all of it goes again.
+//! Presenter mode: larger letters, of the panel only what is dragged, keys and pointer shown; all of it goes again.
 
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, PHONE, app, says, settle};
+use lumen_ui_tests::{DESKTOP, PHONE, app, says, settle, settle_wholly};
 
 fn picture(harness: &mut Harness<'_, LumenApp>) -> Vec<[u8; 4]> {
     harness.render().unwrap().pixels().map(|pixel| pixel.0).collect()
@@ -17,11 +17,11 @@ fn changed(before: &[[u8; 4]], harness: &mut Harness<'_, LumenApp>) -> usize {
 }
 
 fn has_panel(harness: &Harness<'_, LumenApp>) -> bool {
-    harness.query_by_role_and_label(Role::Slider, "Reduction").is_some()
+    harness.query_by_role_and_label(Role::Heading, "Result").is_some()
 }
 
 #[test]
-fn letters_grow_the_panel_goes_and_escape_brings_all_back() {
+fn letters_grow_the_panel_goes_but_for_what_is_dragged_and_escape_brings_all_back() {
     for size in [DESKTOP, PHONE] {
         let (mut harness, _) = app(size);
         settle(&mut harness);
@@ -32,6 +32,11 @@ fn letters_grow_the_panel_goes_and_escape_brings_all_back() {
         let (told, work) = (state.notice.as_ref().map(|notice| notice.text.clone()), state.work);
         assert!(says(&harness, "P or Esc ends it"), "{told:?} {work:?} at {size:?}");
         assert!(!has_panel(&harness));
+        for slider in ["Pass band", "Iterations", "Reduction"] {
+            let rect = harness.get_by_role_and_label(Role::Slider, slider).rect();
+            let window = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::Vec2::from(size) / 1.4);
+            assert!(window.contains_rect(rect), "{slider} at {rect} in {window}");
+        }
         assert!((harness.ctx.zoom_factor() / zoom - 1.4).abs() < 1e-3);
         assert!(harness.query_by_role_and_label(Role::Image, "Shaded view").is_some());
         harness.key_press(Key::Escape);
@@ -43,7 +48,8 @@ fn letters_grow_the_panel_goes_and_escape_brings_all_back() {
 #[test]
 fn a_key_is_shown_and_goes_again_and_the_pointer_has_a_halo() {
     let (mut harness, _) = app(DESKTOP);
-    settle(&mut harness);
+    // What is measured in the background is told in what stays of the panel.
+    settle_wholly(&mut harness);
     harness.key_press(Key::P);
     harness.run_steps(20);
     let before = picture(&mut harness);

@@ -34,7 +34,7 @@ fn the_menu_repeats_the_verdict_and_gives_a_report_in_both_forms() {
     for size in [DESKTOP, PHONE] {
         let (mut harness, memory) = opened(size);
         menu(&mut harness);
-        assert!(says(&harness, "Safe to simulate on. All"));
+        assert!(says(&harness, "Safe to simulate on: ") && says(&harness, " keep their calibre to 2 %"));
         click(&mut harness, "Report (PDF)...");
         let (name, pdf) = offered(&mut harness, &memory);
         assert_eq!(name, "abdominal-aorta-report.pdf");

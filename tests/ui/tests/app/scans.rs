@@ -11,7 +11,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::scan::NamedFile;
 use lumen::io::{Axes, Format, ImportOptions, read, write};
 use lumen::phantom::{Sample, generate};
-use lumen_ui_tests::{DESKTOP, Kept, Memory, app, offered, page, says, settle};
+use lumen_ui_tests::{DESKTOP, Kept, Memory, app, offered, page, says, settle, unfold};
 
 use crate::recovery::{choose, tell};
 
@@ -59,6 +59,7 @@ fn press(harness: &mut Harness<'_, LumenApp>, label: &str) {
 
 /// Chooses the axes in step 1.
 fn say(harness: &mut Harness<'_, LumenApp>, choice: &str) {
+    unfold(harness, "Surface");
     harness.get_by_role_and_label(Role::ComboBox, "Axes").scroll_to_me();
     harness.run_steps(12);
     harness.get_by_role_and_label(Role::ComboBox, "Axes").click();
@@ -76,6 +77,7 @@ fn what_a_scan_says_of_its_axes_goes_with_its_surface() {
         assert_eq!((document.name.as_str(), document.import.axes), ("ball", expected));
         let is_told = document.import.warnings.iter().any(|text| text.to_string().contains("the axes are unknown"));
         assert_eq!(is_told, expected == Axes::Unknown);
+        unfold(&mut harness, "Surface");
         let has_list = harness.query_by_role_and_label(Role::ComboBox, "Axes").is_some();
         assert_eq!(has_list, expected == Axes::Unknown, "asked where nothing says them");
     }

@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen_ui_tests::told::{put_on, wait};
-use lumen_ui_tests::{PHONE, app, in_hand, phone, settle, settle_wholly};
+use lumen_ui_tests::{PHONE, app, in_hand, phone, settle, settle_wholly, unfold};
 
 use crate::controls::shown;
 use crate::recovery::tell;
@@ -38,11 +38,20 @@ fn swipe(harness: &mut App, from: Pos2, way: Vec2) {
     harness.run_steps(3);
 }
 
+/// Unfolds what has a slider in what scrolls.
+fn unfold_angle(harness: &mut App) {
+    unfold(harness, "Advanced: Reduce");
+    harness.get_by_role_and_label(Role::Slider, "Feature angle").scroll_to_me();
+    harness.run_steps(12);
+}
+
 #[test]
 fn a_finger_that_goes_up_over_a_slider_scrolls_and_one_that_goes_aside_moves_it() {
-    let (mut harness, _) = app(PHONE);
+    let (mut harness, _) = phone();
     settle(&mut harness);
-    let place = |harness: &App, role| harness.get_by_role_and_label(role, "Pass band").rect();
+    draw_up(&mut harness);
+    unfold_angle(&mut harness);
+    let place = |harness: &App, role| harness.get_by_role_and_label(role, "Feature angle").rect();
     let before = harness.state().state().settings.clone();
     let slider = place(&harness, Role::Slider);
     // Not on the knob, and not straight: where the value would be another.
@@ -50,7 +59,7 @@ fn a_finger_that_goes_up_over_a_slider_scrolls_and_one_that_goes_aside_moves_it(
     assert_eq!(harness.state().state().settings, before, "the value stays");
     let moved = place(&harness, Role::Slider).top() - slider.top();
     assert!((-121.0..=-90.0).contains(&moved), "it scrolled by {moved}");
-    let field = harness.get_by_role_and_label(Role::SpinButton, "Pass band value").rect();
+    let field = harness.get_by_role_and_label(Role::SpinButton, "Feature angle value").rect();
     swipe(&mut harness, field.center(), vec2(0.0, 60.0));
     assert_eq!(harness.state().state().settings, before, "so does that of the field");
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
@@ -60,7 +69,7 @@ fn a_finger_that_goes_up_over_a_slider_scrolls_and_one_that_goes_aside_moves_it(
     let slider = place(&harness, Role::Slider);
     swipe(&mut harness, slider.lerp_inside(vec2(0.5, 0.5)), vec2(100.0, 20.0));
     let after = harness.state().state().settings.clone();
-    assert!(after.smoothing.pass_band > 2.0 * before.smoothing.pass_band, "{:?}", after.smoothing);
+    assert!(after.decimation.feature_angle > before.decimation.feature_angle + 10.0, "{:?}", after.decimation);
     assert!((place(&harness, Role::Slider).top() - slider.top()).abs() < 1.0, "it stands still");
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run_steps(2);
@@ -137,6 +146,15 @@ fn one_view_is_large_and_a_tab_or_a_swipe_above_it_goes_to_the_other() {
     assert!(!is_shaded(&harness) && camera.rotation != harness.state().camera().rotation, "a swipe in the view turns");
 }
 
+/// Taps the handle until the panel stands at its highest.
+fn draw_up(harness: &mut App) {
+    for _ in 0..2 {
+        harness.get_by_label_contains("Panel height").click();
+        harness.run_steps(4);
+    }
+    assert!(harness.query_by_label("Panel height: full").is_some());
+}
+
 #[test]
 fn the_panel_is_drawn_up_and_down_and_rests_at_three_heights() {
     let (mut harness, _) = phone();
@@ -144,16 +162,20 @@ fn the_panel_is_drawn_up_and_down_and_rests_at_three_heights() {
     let place = |harness: &App| harness.get_by_label_contains("Panel height").rect();
     let rests = |harness: &App, at: &str| harness.query_by_label(&format!("Panel height: {at}")).is_some();
     let has = |harness: &App, slider: &'static str| harness.query_by_role_and_label(Role::Slider, slider).is_some();
+    let has_rest = |harness: &App| harness.query_by_role_and_label(Role::ComboBox, "Strength").is_some();
+    let low = place(&harness);
+    assert!(rests(&harness, "low") && low.height() >= 44.0 && low.width() > 300.0, "{low}");
+    assert!(!has_rest(&harness), "what is dragged is all there is");
+    swipe(&mut harness, low.center(), vec2(0.0, -90.0));
     let half = place(&harness);
-    assert!(rests(&harness, "half") && half.height() >= 44.0 && half.width() > 300.0, "{half}");
+    assert!(rests(&harness, "half") && has_rest(&harness) && half.top() < low.top() - 60.0, "{low} became {half}");
     swipe(&mut harness, half.center(), vec2(0.0, -200.0));
     let full = place(&harness);
-    assert!(rests(&harness, "full") && full.top() < half.top() - 150.0, "{half} became {full}");
+    assert!(rests(&harness, "full") && full.top() < half.top() - 100.0, "{half} became {full}");
     swipe(&mut harness, full.center(), vec2(0.0, 450.0));
-    let low = place(&harness);
-    assert!(rests(&harness, "low") && low.top() > half.top() + 100.0, "{half} became {low}");
-    // What it peeks at is in sight, and works.
-    assert!(!has(&harness, "Iterations"));
+    assert!(rests(&harness, "low") && place(&harness) == low, "{full} became {}", place(&harness));
+    // What it shows at the lowest is in sight, and works.
+    assert!(["Pass band", "Iterations"].into_iter().all(|slider| has(&harness, slider)));
     let slider = harness.get_by_role_and_label(Role::Slider, "Reduction").rect();
     assert!(slider.top() > low.bottom() && slider.bottom() < PHONE[1] - 56.0, "{slider} above the status");
     let (before, tenth) = (harness.state().state().settings.target, shown(&harness));
@@ -174,7 +196,7 @@ fn the_panel_is_drawn_up_and_down_and_rests_at_three_heights() {
         harness.run_steps(2);
         assert!(rests(&harness, at), "a tap to {at}");
     }
-    assert!((place(&harness).top() - half.top()).abs() < 1.0 && has(&harness, "Iterations"));
+    assert!((place(&harness).top() - half.top()).abs() < 1.0 && has_rest(&harness));
 }
 
 #[test]
@@ -234,7 +256,8 @@ fn so_is_every_target_over_vessels_measures_and_what_is_saved() {
 fn so_is_every_target_of_a_lesson_the_collapses_and_the_folds_of_the_panel() {
     let (mut harness, memory) = phone();
     settle(&mut harness);
-    for fold in ["Response", "Error against triangles", "Mending"] {
+    draw_up(&mut harness);
+    for fold in ["Response", "Error against triangles", "Surface", "Mending", "Advanced: Smooth", "Advanced: Reduce"] {
         click(&mut harness, fold);
         fits_a_finger(&harness, fold);
     }
@@ -267,29 +290,30 @@ fn so_is_every_target_of_a_scan() {
     fits_a_finger(&harness, "a scan");
 }
 
-/// Scrolls to the slider of the pass band and flicks a finger up over the place that `from` finds there.
+/// Scrolls to the slider of the feature angle and flicks a finger down over the place that `from` finds there: most of what
+/// scrolls lies above it.
 fn flick(harness: &mut App, from: fn(&App) -> Pos2) {
-    harness.get_by_role_and_label(Role::Slider, "Pass band").scroll_to_me();
+    harness.get_by_role_and_label(Role::Slider, "Feature angle").scroll_to_me();
     harness.run_steps(12);
     let from = from(harness);
-    swipe(harness, from, vec2(0.0, -240.0));
+    swipe(harness, from, vec2(0.0, 150.0));
 }
 
-/// How far the panel goes up in each of so many times 0.2 s.
+/// How far the panel goes down in each of so many times 0.2 s.
 fn goes_on(harness: &mut App, times: usize) -> Vec<f32> {
-    let top = |harness: &App| harness.get_by_role_and_label(Role::Slider, "Pass band").rect().top();
+    let top = |harness: &App| harness.get_by_role_and_label(Role::Slider, "Feature angle").rect().top();
     let mut way = || {
         let before = top(harness);
         harness.run_steps(12);
-        before - top(harness)
+        top(harness) - before
     };
     (0..times).map(|_| way()).collect()
 }
 
 /// On a slider, and on words beside it.
 const PLACES: [fn(&App) -> Pos2; 2] = [
-    |harness| harness.get_by_role_and_label(Role::Slider, "Pass band").rect().lerp_inside(vec2(0.8, 0.5)),
-    |harness| harness.get_by_role_and_label(Role::Label, "Pass band").rect().center(),
+    |harness| harness.get_by_role_and_label(Role::Slider, "Feature angle").rect().lerp_inside(vec2(0.8, 0.5)),
+    |harness| harness.get_by_role_and_label(Role::Label, "Feature angle").rect().center(),
 ];
 
 /// Seconds between two frames: a finger has its speed of a tenth of a second.
@@ -299,6 +323,8 @@ const FRAME_S: f32 = 1.0 / 60.0;
 fn a_flick_scrolls_on_and_slows_down_over_a_slider_as_elsewhere_and_a_finger_stops_it() {
     let (mut harness, _) = in_hand(PHONE, FRAME_S, true);
     settle(&mut harness);
+    draw_up(&mut harness);
+    unfold_angle(&mut harness);
     let before = harness.state().state().settings.clone();
     for place in PLACES {
         flick(&mut harness, place);
@@ -313,7 +339,7 @@ fn a_flick_scrolls_on_and_slows_down_over_a_slider_as_elsewhere_and_a_finger_sto
         assert_eq!(ways[24], 0.0, "it comes to rest: {ways:?}");
 
         flick(&mut harness, place);
-        let held = harness.get_by_label_contains("Panel height").rect().center_bottom() + vec2(0.0, 60.0);
+        let held = egui::pos2(PHONE[0] / 2.0, PHONE[1] - 110.0);
         finger(&harness, TouchPhase::Start, held);
         harness.hover_at(held);
         harness.drag_at(held);
@@ -335,6 +361,8 @@ fn a_flick_scrolls_on_and_slows_down_over_a_slider_as_elsewhere_and_a_finger_sto
 fn where_less_motion_is_asked_for_a_flick_ends_with_the_finger() {
     let (mut harness, _) = in_hand(PHONE, FRAME_S, false);
     settle(&mut harness);
+    draw_up(&mut harness);
+    unfold_angle(&mut harness);
     for place in PLACES {
         flick(&mut harness, place);
         assert_eq!(goes_on(&mut harness, 1), [0.0]);

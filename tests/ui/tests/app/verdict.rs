@@ -3,14 +3,14 @@
 use std::time::Duration;
 
 use egui::Key;
-use egui::accesskit::Role;
+use egui::accesskit::{Role, Toggled};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::io::Unit;
 use lumen::pipeline::settings::{Keep, Settings, Smoothing, Target};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{DESKTOP, app, app_in_full, open, phone, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, open, phone, says, settle, settle_wholly, tube, unfold};
 
 use crate::targets::fits_a_finger;
 
@@ -29,6 +29,54 @@ fn what_is_safe_is_told_above_everything_and_leads_to_the_vessels() {
     assert!(head.bottom() < view.top() && head.left() >= view.left());
     assert!(says(&harness, "keep their calibre to 2 %"));
     click(&mut harness, "Show vessels");
+    assert!(harness.query_by_role_and_label(Role::SpinButton, "Allowed change").is_some());
+}
+
+/// A tube of 12 mm and 24 mm between open ends, of which 12 mm can be measured.
+fn short() -> Vec<u8> {
+    tube(6.0, 25.0, 1.0)
+}
+
+#[test]
+fn of_what_is_measured_little_it_is_said_how_little_and_a_click_leads_to_the_rest() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    open(&mut harness, &memory, "tube.obj", short());
+    assert!(!says(&harness, "Safe to simulate on") && !says(&harness, "Safe to"));
+    let head = harness.get_by_label("Kept where measured").rect();
+    let coverage = harness.state().state().calibre().unwrap().found.as_ref().unwrap().coverage;
+    let percent = coverage.percent();
+    assert!((percent - 50.0).abs() < 12.0, "{percent}");
+    let words = format!("{:.0} % of the length, 1 of 1 vessel", percent.floor());
+    let link = harness.get_by_role_and_label(Role::Button, &words).rect();
+    assert!(link.left() > head.right() && link.center().y - head.center().y < 4.0, "beside it");
+    assert!(says(&harness, "Kept to"), "so is the rate told");
+    for way in [&*words, "Show unmeasured"] {
+        harness.get_all_by_role_and_label(Role::Button, way).next().unwrap().click();
+        harness.run_steps(3);
+        assert!(harness.query_by_role_and_label(Role::SpinButton, "Allowed change").is_some(), "{way}");
+        let colours = harness.get_by_role_and_label(Role::CheckBox, "Colour the surface").accesskit_node().toggled();
+        assert_eq!(colours, Some(Toggled::True), "{way}");
+        // Within a radius of an end.
+        let z = harness.state().camera().target.z;
+        assert!(!(8.0..=16.0).contains(&z), "{way} goes to {z}");
+        harness.key_press(Key::V);
+        harness.run_steps(3);
+        assert!(harness.query_by_role_and_label(Role::SpinButton, "Allowed change").is_none(), "{way}");
+    }
+}
+
+#[test]
+fn on_a_phone_how_much_is_measured_stands_first() {
+    let (mut harness, memory) = phone();
+    settle(&mut harness);
+    open(&mut harness, &memory, "tube.obj", short());
+    assert!(harness.query_by_label("Kept where measured").is_some());
+    let sentence =
+        harness.get_by_label_contains(" % of the length, 1 of 1 vessel. The vessel keeps its calibre").rect();
+    assert!(sentence.left() >= 0.0 && sentence.right() <= lumen_ui_tests::PHONE[0]);
+    fits_a_finger(&harness, "what is measured little");
+    click(&mut harness, "Show unmeasured");
     assert!(harness.query_by_role_and_label(Role::SpinButton, "Allowed change").is_some());
 }
 
@@ -131,6 +179,7 @@ fn what_was_cancelled_is_not_said_to_be_measured() {
     harness.run_steps(4);
     assert!(says(&harness, "Not measured") && !says(&harness, "Being measured..."));
     memory.borrow_mut().slice = Duration::from_millis(50);
+    unfold(&mut harness, "Advanced: Reduce");
     harness.get_by_role_and_label(Role::CheckBox, "Spare thin vessels").scroll_to_me();
     harness.run_steps(30);
     harness.get_by_role_and_label(Role::CheckBox, "Spare thin vessels").click();

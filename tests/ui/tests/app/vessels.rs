@@ -95,6 +95,47 @@ fn colours_show_one_thing_at_a_time_and_change_the_picture() {
 }
 
 #[test]
+fn what_is_not_measured_has_a_colour_of_its_own_that_the_legend_names() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let bytes = tube(3.0, 12.0, 0.5);
+    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "tube.obj".to_owned(), bytes });
+    harness.run_steps(20);
+    settle(&mut harness);
+    calibre(&mut harness);
+    let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect().shrink(2.0);
+    // Pixels that are grey, none of whose channels is far from another, and as bright as a lit wall; and those of the wall's own
+    // warm colour.
+    let count = |harness: &mut Harness<'_, LumenApp>| {
+        let picture = harness.render().unwrap();
+        let (mut grey, mut warm) = (0, 0);
+        for y in view.top() as u32..view.bottom() as u32 {
+            // Right of the line: left of it is the surface as opened.
+            for x in view.center().x as u32..view.right() as u32 {
+                let [red, green, blue, _] = picture.get_pixel(x, y).0.map(i32::from);
+                let spread = red.max(green).max(blue) - red.min(green).min(blue);
+                grey += u32::from(spread <= 3 && (80..=170).contains(&red));
+                warm += u32::from(red > blue + 30 && red > green + 20);
+            }
+        }
+        (grey, warm)
+    };
+    let plain = count(&mut harness);
+    harness.key_press(Key::V);
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::CheckBox, "Colour the surface").click();
+    harness.run_steps(3);
+    harness.key_press(Key::V);
+    harness.run_steps(3);
+    let coloured = count(&mut harness);
+    assert!(
+        plain.1 > 10_000 && coloured.1 * 20 < plain.1,
+        "{plain:?} {coloured:?}: nothing keeps the wall's own colour"
+    );
+    assert!(coloured.0 > plain.0 + 5_000, "{plain:?} {coloured:?}: half of it is grey");
+}
+
+#[test]
 fn calibre_and_centrelines_are_saved() {
     let (mut harness, memory) = app(DESKTOP);
     settle(&mut harness);

@@ -1,6 +1,6 @@
 //! Whether a level still has the vessels of the surface it comes from: pinched and lost branches.
 //!
-//! The middles of the vessels are sampled once: the centres of inner balls (`mesh/inner_ball.rs`) of the finest level,
+//! The middles of the vessels are sampled once: the centres of inner balls ([`InnerRadii`]) of the finest level,
 //! one in each cell of half a ball's radius, each with its clearance, the distance to the wall. On a level the same
 //! points have to lie inside and clear of the wall: where the clearance has fallen below half of what it was, or the
 //! point lies outside, the vessel is pinched or lost there. At a pinch between two samples, the wall comes nearer to
@@ -12,11 +12,10 @@ use std::collections::HashSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::narrowest::{CLEAR, ball_centre, is_inside, ring_median};
-use super::response::edge_length;
-use super::task::{Yielder, at_once, blocks};
+use super::{CLEAR, is_inside, ring_median};
 use lumen_mesh::parallel;
-use lumen_mesh::{InnerRadii, Sides, SurfaceIndex, Topology, TriMesh, Vec3};
+use lumen_mesh::task::{Yielder, at_once, blocks};
+use lumen_mesh::{Ball, InnerRadii, Sides, SurfaceIndex, Topology, TriMesh, rms_edge};
 
 /// The part of the clearance below which a vessel counts as pinched.
 pub const PINCHED: f32 = 0.5;
@@ -26,21 +25,12 @@ const MAX_SAMPLES: usize = 20_000;
 /// A ball's radius must agree with the median around it to this factor, to be a sample.
 const AGREE: f32 = 1.4;
 /// A vessel of less than so many mean edges in diameter counts as drawn shut by smoothing: reduction cannot lose it.
-pub(super) const SHUT: f64 = 0.25;
+pub const SHUT: f64 = 0.25;
 /// Samples between two looks at the clock, and inner balls, of about 200 ns each, that may become some.
 const SAMPLES: usize = 256;
 const BALLS: usize = 4096;
 /// Samples that are measured in one piece.
 const PIECE: usize = 64;
-
-/// A point in the middle of a vessel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// Where, in mm.
-    pub at: Vec3,
-    /// Its distance from the wall in mm.
-    pub clearance: f32,
-}
 
 /// Where a level has narrowed the vessels most.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -57,8 +47,9 @@ pub struct Narrowing {
     pub pinched_places: usize,
 }
 
-/// Samples of the vessels of `mesh`, from its inner balls; `index` is of this surface, in whatever numbering.
-pub fn samples(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &SurfaceIndex) -> Vec<Sample> {
+/// The middles of the vessels of `mesh`, from its inner balls, each with its clearance as radius; `index` is of this surface, in
+/// whatever numbering.
+pub fn samples(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &SurfaceIndex) -> Vec<Ball> {
     at_once(samples_in_slices(mesh, topology, balls, index, &Yielder::never()))
 }
 
@@ -69,21 +60,18 @@ pub async fn samples_in_slices(
     balls: &InnerRadii,
     index: &SurfaceIndex,
     yielder: &Yielder,
-) -> Vec<Sample> {
+) -> Vec<Ball> {
     // Radius that a ball must have, in mm.
-    let least = (edge_length(mesh) * SHUT / 2.0) as f32;
-    // The cells that have a ball; middles and radii of the balls that may be samples.
+    let least = (rms_edge(mesh) * SHUT / 2.0) as f32;
+    // The cells that have a ball; the balls that may be samples.
     let (mut taken, mut chosen, mut ring) = (HashSet::new(), Vec::new(), Vec::new());
     for block in blocks(balls.own.len(), BALLS) {
         for &v in &balls.own[block] {
-            let radius = balls.radii[v as usize];
-            let Some(centre) = ball_centre(mesh, topology, &balls.radii, v).filter(|_| radius > least) else {
-                continue;
-            };
+            let Some(ball) = balls.ball(mesh, topology, v).filter(|ball| ball.radius > least) else { continue };
             let median = ring_median(topology, &balls.radii, v, &mut ring);
-            let agrees = radius * AGREE >= median && radius <= median * AGREE;
-            if agrees && taken.insert(cell(centre, radius)) {
-                chosen.push((centre, radius));
+            let agrees = ball.radius * AGREE >= median && ball.radius <= median * AGREE;
+            if agrees && taken.insert(cell(&ball)) {
+                chosen.push(ball);
             }
         }
         yielder.rest(0.0).await;
@@ -93,71 +81,72 @@ pub async fn samples_in_slices(
     for block in blocks(chosen.len(), SAMPLES) {
         let (end, chosen_now) = (block.end, &chosen[block]);
         let pieces = parallel::map_ranges(chosen_now.len(), PIECE, |piece| {
-            chosen_now[piece].iter().filter_map(|&(at, radius)| sample(at, radius, index)).collect::<Vec<_>>()
+            chosen_now[piece].iter().filter_map(|ball| sample(ball, index)).collect::<Vec<_>>()
         });
         found.extend(pieces.into_iter().flatten());
         yielder.rest(end as f32 / chosen.len() as f32).await;
     }
     // The narrowest, where they are too many.
     if found.len() > MAX_SAMPLES {
-        found.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
+        found.sort_by(|a, b| a.radius.total_cmp(&b.radius));
         found.truncate(MAX_SAMPLES);
     }
     found
 }
 
-/// A ball's middle, if it is inside and clear of the wall.
-fn sample(at: Vec3, radius: f32, index: &SurfaceIndex) -> Option<Sample> {
-    let clearance = index.nearest(at)?.distance;
-    (clearance >= CLEAR * radius && is_inside(at, index)).then_some(Sample { at, clearance })
+/// The ball about an inner ball's middle that reaches to the nearest wall, if that middle is inside and clear of the wall.
+fn sample(inner: &Ball, index: &SurfaceIndex) -> Option<Ball> {
+    let clearance = index.nearest(inner.centre)?.distance;
+    let is_middle = clearance >= CLEAR * inner.radius && is_inside(inner.centre, index);
+    is_middle.then_some(Ball { centre: inner.centre, radius: clearance })
 }
 
 /// The cell of half a radius, rounded down to a power of two, in which a ball's middle lies.
-fn cell(centre: Vec3, radius: f32) -> (i32, [i32; 3]) {
-    let level = libm::ilogb(f64::from(radius)) - 1;
+fn cell(ball: &Ball) -> (i32, [i32; 3]) {
+    let level = libm::ilogb(f64::from(ball.radius)) - 1;
     let size = libm::exp2(f64::from(level));
-    (level, centre.to_array().map(|x| (f64::from(x) / size).floor() as i32))
+    (level, ball.centre.to_array().map(|x| (f64::from(x) / size).floor() as i32))
 }
 
 /// For each of a range of samples the clearance on another surface, in mm: 0 outside of it.
-pub(super) fn clearances(samples: &[Sample], mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> Vec<f32> {
+pub fn clearances(samples: &[Ball], mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> Vec<f32> {
     let sides = Sides::new(mesh, topology);
-    let clearance = |sample: &Sample| {
-        let Some(nearest) = index.nearest(sample.at) else { return 0.0 };
-        if sides.is_outside(sample.at, &nearest) == Some(true) { 0.0 } else { nearest.distance }
+    let clearance = |sample: &Ball| {
+        let Some(nearest) = index.nearest(sample.centre) else { return 0.0 };
+        if sides.is_outside(sample.centre, &nearest) == Some(true) { 0.0 } else { nearest.distance }
     };
     parallel::map_ranges(samples.len(), PIECE, |piece| samples[piece].iter().map(clearance).collect::<Vec<_>>())
         .concat()
 }
 
 /// What a level makes of the samples; `None` without a sample. `index` is of `mesh`.
-pub fn narrowing(samples: &[Sample], mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> Option<Narrowing> {
+pub fn narrowing(samples: &[Ball], mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> Option<Narrowing> {
     let clearances = clearances(samples, mesh, topology, index);
     let (worst, ratio) = worst(samples, &clearances)?;
-    let pinched: Vec<Sample> =
-        samples.iter().zip(&clearances).filter(|(s, c)| **c < PINCHED * s.clearance).map(|(s, _)| *s).collect();
+    let pinched: Vec<Ball> =
+        samples.iter().zip(&clearances).filter(|(s, c)| **c < PINCHED * s.radius).map(|(s, _)| *s).collect();
     Some(Narrowing {
         ratio: f64::from(ratio),
-        at_mm: samples[worst].at.to_array(),
-        diameter_before_mm: 2.0 * f64::from(samples[worst].clearance),
+        at_mm: samples[worst].centre.to_array(),
+        diameter_before_mm: 2.0 * f64::from(samples[worst].radius),
         diameter_after_mm: 2.0 * f64::from(clearances[worst]),
         pinched_places: places(pinched),
     })
 }
 
 /// The sample with the least part of its clearance left, and that part; of several, the widest.
-pub(super) fn worst(samples: &[Sample], clearances: &[f32]) -> Option<(usize, f32)> {
-    let ratios = samples.iter().zip(clearances).map(|(sample, left)| left / sample.clearance).enumerate();
+pub fn worst(samples: &[Ball], clearances: &[f32]) -> Option<(usize, f32)> {
+    let ratios = samples.iter().zip(clearances).map(|(sample, left)| left / sample.radius).enumerate();
     ratios.reduce(|least, next| {
-        let wider = samples[next.0].clearance > samples[least.0].clearance;
+        let wider = samples[next.0].radius > samples[least.0].radius;
         if next.1 < least.1 || (next.1 == least.1 && wider) { next } else { least }
     })
 }
 
 /// In how many groups of samples, whose balls touch each other, these lie.
-fn places(mut pinched: Vec<Sample>) -> usize {
-    pinched.sort_by(|a, b| a.at.x.total_cmp(&b.at.x));
-    let widest = pinched.iter().map(|sample| sample.clearance).fold(0.0, f32::max);
+fn places(mut pinched: Vec<Ball>) -> usize {
+    pinched.sort_by(|a, b| a.centre.x.total_cmp(&b.centre.x));
+    let widest = pinched.iter().map(|sample| sample.radius).fold(0.0, f32::max);
     let mut group: Vec<usize> = (0..pinched.len()).collect();
     let root = |group: &mut Vec<usize>, mut i: usize| {
         while group[i] != i {
@@ -168,10 +157,10 @@ fn places(mut pinched: Vec<Sample>) -> usize {
     };
     for (i, a) in pinched.iter().enumerate() {
         for (j, b) in pinched.iter().enumerate().skip(i + 1) {
-            if b.at.x - a.at.x > a.clearance + widest {
+            if b.centre.x - a.centre.x > a.radius + widest {
                 break;
             }
-            if a.at.distance(b.at) <= a.clearance + b.clearance {
+            if a.centre.distance(b.centre) <= a.radius + b.radius {
                 let (one, other) = (root(&mut group, i), root(&mut group, j));
                 group[one.max(other)] = one.min(other);
             }
@@ -183,14 +172,14 @@ fn places(mut pinched: Vec<Sample>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lumen_mesh::inner_radii;
     use lumen_mesh::shapes::{icosphere, tube};
+    use lumen_mesh::{Vec3, inner_radii};
 
     fn indexed(mesh: &TriMesh) -> (Topology, SurfaceIndex) {
         (Topology::new(mesh.positions.len(), &mesh.triangles), SurfaceIndex::new(&mesh.positions, &mesh.triangles))
     }
 
-    fn samples_of(mesh: &TriMesh) -> Vec<Sample> {
+    fn samples_of(mesh: &TriMesh) -> Vec<Ball> {
         let (topology, index) = indexed(mesh);
         samples(mesh, &topology, &inner_radii(mesh, &topology, &index), &index)
     }
@@ -208,12 +197,12 @@ mod tests {
     #[test]
     fn samples_lie_on_the_axis_close_enough_together() {
         let mut samples = samples_of(&waisted(0.75));
-        samples.sort_by(|a, b| a.at.z.total_cmp(&b.at.z));
+        samples.sort_by(|a, b| a.centre.z.total_cmp(&b.centre.z));
         for sample in &samples {
-            assert!(sample.at.truncate().length() < 0.02 && (sample.clearance - 0.75).abs() < 0.02, "{sample:?}");
+            assert!(sample.centre.truncate().length() < 0.02 && (sample.radius - 0.75).abs() < 0.02, "{sample:?}");
         }
-        assert!(samples.windows(2).all(|pair| pair[1].at.z - pair[0].at.z <= 0.75 / 2.0), "{samples:?}");
-        assert!(samples[0].at.z < 0.4 && samples[samples.len() - 1].at.z > 39.6);
+        assert!(samples.windows(2).all(|pair| pair[1].centre.z - pair[0].centre.z <= 0.75 / 2.0), "{samples:?}");
+        assert!(samples[0].centre.z < 0.4 && samples[samples.len() - 1].centre.z > 39.6);
     }
 
     #[test]

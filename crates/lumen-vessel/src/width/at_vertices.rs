@@ -1,14 +1,14 @@
 //! How wide the vessel is at each vertex of its wall, as one radius that varies smoothly along the surface.
 //!
-//! The radius is the inner ball's at the vertex (`mesh::inner_ball`), as the median of its ring, several times over,
+//! The radius is the inner ball's at the vertex ([`InnerRadii`](lumen_mesh::InnerRadii)), as the median of its ring, several times over,
 //! for on rough surfaces many vertices have bad normals. From a thin vessel it grows by no more than the way along the
 //! surface: so it has no jumps, and a narrow place counts for the surface beside it. Where no wall of a piece faces
 //! another the radius is infinite.
 
 use std::sync::Arc;
 
-use super::narrowest::ring_median;
-use super::task::{Yielder, blocks};
+use super::ring_median;
+use lumen_mesh::task::{Yielder, blocks};
 use lumen_mesh::{SurfaceIndex, Topology, TriMesh, inner_radii_in_slices};
 
 /// By what the radius may grow from vertex to vertex: of the edge between them.
@@ -22,7 +22,7 @@ const SWEEPS: usize = 12;
 
 /// The width at each vertex of `mesh`, whose adjacency is `topology`, as a radius in mm; and an index of the surface: the
 /// one that is there already, or a new one.
-pub(super) async fn widths(
+pub async fn widths(
     mesh: &TriMesh,
     topology: &Topology,
     index: Option<Arc<SurfaceIndex>>,

@@ -1,6 +1,6 @@
 //! Where a vessel is narrowest: the smallest ball in the middle of it.
 //!
-//! Of the inner balls (`mesh/inner_ball.rs`) those are taken that are smallest as the median over a vertex and its
+//! Of the inner balls ([`InnerRadii`]) those are taken that are smallest as the median over a vertex and its
 //! neighbours: a single vertex with a bad normal or a dent does not make the smallest lumen. Each is then moved to the
 //! middle of the vessel, away from the nearest wall by half of what the opposite one is farther, as long as it grows.
 //! What counts is the distance of that middle from the nearest wall, whichever it is.
@@ -10,11 +10,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::task::{Yielder, blocks};
-use lumen_mesh::{InnerRadii, SurfaceIndex, Topology, TriMesh, Vec3, outward_normal};
-
-/// A ball's middle is at least this part of the radius away from the wall, or it is no lumen.
-pub(super) const CLEAR: f32 = 0.85;
+use super::{CLEAR, is_inside, ring_median};
+use lumen_mesh::task::{Yielder, blocks};
+use lumen_mesh::{Ball, InnerRadii, SurfaceIndex, Topology, TriMesh, Vec3};
 
 /// Balls that are moved to the middle of the vessel, at most.
 const CANDIDATES: usize = 256;
@@ -23,9 +21,6 @@ const LOOKED: usize = 4096;
 const MOVED: usize = 4;
 /// Moves of a ball. Each halves what is left of the way in a round vessel.
 const MOVES: usize = 6;
-/// Directions without relation to any axis or to each other.
-const RAYS: [[f32; 3]; 3] =
-    [[0.534_522, 0.267_261, 0.801_784], [-0.742_781, 0.557_086, 0.371_391], [0.196_116, -0.784_465, -0.588_348]];
 
 /// The narrowest place of a vessel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,21 +41,22 @@ pub async fn narrowest(
     yielder: &Yielder,
 ) -> Option<Narrowest> {
     let smallest = smallest(topology, balls, &yielder.part(0.0..0.5)).await;
-    let mut least: Option<(f32, Vec3)> = None;
+    let mut least: Option<Ball> = None;
     for block in blocks(smallest.len(), MOVED) {
         let end = block.end;
         for &(radius, v) in &smallest[block] {
-            let middle = ball_centre(mesh, topology, &balls.radii, v).and_then(|centre| centred(centre, index));
-            let Some((at, clearance)) = middle else { continue };
-            let is_less = least.is_none_or(|(least, _)| clearance < least);
-            if is_less && clearance >= CLEAR * radius && is_inside(at, index) {
-                least = Some((clearance, at));
+            let Some(found) = balls.ball(mesh, topology, v).and_then(|ball| centred(ball.centre, index)) else {
+                continue;
+            };
+            let is_less = least.is_none_or(|least| found.radius < least.radius);
+            if is_less && found.radius >= CLEAR * radius && is_inside(found.centre, index) {
+                least = Some(found);
             }
         }
         yielder.rest(0.5 + 0.5 * end as f32 / smallest.len() as f32).await;
     }
-    let (clearance, at) = least?;
-    Some(Narrowest { diameter_mm: 2.0 * f64::from(clearance), at_mm: at.to_array() })
+    let Ball { centre, radius } = least?;
+    Some(Narrowest { diameter_mm: 2.0 * f64::from(radius), at_mm: centre.to_array() })
 }
 
 /// The smallest balls as medians of their rings, with their vertices: up to [`CANDIDATES`], ascending.
@@ -84,8 +80,8 @@ fn by_radius(a: &(f32, u32), b: &(f32, u32)) -> std::cmp::Ordering {
     a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
 }
 
-/// Moves a point to the middle between the nearest wall and the one behind it while its clearance grows.
-fn centred(mut at: Vec3, index: &SurfaceIndex) -> Option<(Vec3, f32)> {
+/// The ball in the middle between the nearest wall and the one behind it: a point is moved there while its clearance grows.
+fn centred(mut at: Vec3, index: &SurfaceIndex) -> Option<Ball> {
     let mut nearest = index.nearest(at)?;
     for _ in 0..MOVES {
         let Some(away) = (at - nearest.point).try_normalize() else { break };
@@ -94,37 +90,15 @@ fn centred(mut at: Vec3, index: &SurfaceIndex) -> Option<(Vec3, f32)> {
         let Some(next) = index.nearest(moved).filter(|next| next.distance > nearest.distance) else { break };
         (at, nearest) = (moved, next);
     }
-    Some((at, nearest.distance))
-}
-
-/// Whether a point lies inside, as three of six rays have it: near an open end, half of them may leave by that.
-pub(super) fn is_inside(at: Vec3, index: &SurfaceIndex) -> bool {
-    let rays = RAYS.iter().flat_map(|&ray| [Vec3::from(ray), -Vec3::from(ray)]);
-    rays.filter(|&ray| index.winding(at, ray) > 0).count() >= 3
-}
-
-/// Median of the radii at `v` and its neighbours; `ring` is room for them.
-pub(super) fn ring_median(topology: &Topology, radii: &[f32], v: u32, ring: &mut Vec<f32>) -> f32 {
-    ring.clear();
-    ring.push(radii[v as usize]);
-    ring.extend(topology.neighbours(v).iter().map(|&n| radii[n as usize]));
-    let middle = ring.len() / 2;
-    *ring.select_nth_unstable_by(middle, f32::total_cmp).1
-}
-
-/// Where the inner ball at `v` has its middle.
-pub(super) fn ball_centre(mesh: &TriMesh, topology: &Topology, radii: &[f32], v: u32) -> Option<Vec3> {
-    let radius = radii[v as usize];
-    let normal = outward_normal(mesh, topology, v).filter(|_| radius.is_finite())?;
-    Some(mesh.positions[v as usize] - normal * radius)
+    Some(Ball { centre: at, radius: nearest.distance })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::task::at_once;
-    use lumen_mesh::shapes::tube;
-    use lumen_mesh::{inner_radii, shapes::icosphere};
+    use lumen_mesh::inner_radii;
+    use lumen_mesh::shapes::{icosphere, tube};
+    use lumen_mesh::task::at_once;
 
     fn of(mesh: &TriMesh) -> Option<Narrowest> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
@@ -148,8 +122,8 @@ mod tests {
         let mesh = tube(64, 80, 20.0, |_| 2.0);
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
         for off in [Vec3::X * 1.5, Vec3::new(-0.7, 0.9, 0.0), Vec3::ZERO] {
-            let (at, clearance) = centred(Vec3::Z * 10.0 + off, &index).unwrap();
-            assert!(at.truncate().length() < 0.1 && (clearance - 2.0).abs() < 0.1, "{off}: {at} {clearance}");
+            let ball = centred(Vec3::Z * 10.0 + off, &index).unwrap();
+            assert!(ball.centre.truncate().length() < 0.1 && (ball.radius - 2.0).abs() < 0.1, "{off}: {ball:?}");
         }
     }
 

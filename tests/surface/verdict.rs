@@ -1,0 +1,98 @@
+//! What a verdict says of surfaces of which it is known how much can be measured: open tubes, of which a radius is left out at
+//! each end.
+
+use std::sync::Arc;
+
+use lumen::io::{Format, ImportOptions, read, write};
+use lumen::mesh::TriMesh;
+use lumen::pipeline::report::Report;
+use lumen::pipeline::run::Pipeline;
+use lumen::pipeline::settings::{Settings, Target};
+use lumen::pipeline::verdict::{FindingKind, Head, Verdict, VerdictReport};
+
+use crate::smoothing::{tube, turned};
+
+/// The numbers and the verdict of a run that takes six tenths of the triangles; with the calibre, or without.
+fn verdict(mesh: &TriMesh, has_calibre: bool) -> (Report, Verdict) {
+    let import = read(&write(mesh, None, Format::Obj).unwrap(), "a.obj", &ImportOptions::default()).unwrap();
+    let settings = Settings { target: Target::Reduction(600), ..Settings::default() };
+    let mut pipeline = Pipeline::new(Arc::new(import.mesh), settings).with_samples(200);
+    if has_calibre {
+        pipeline = pipeline.with_safe();
+    }
+    pipeline.finish().unwrap();
+    let report = Report::new("a.obj", &pipeline).unwrap();
+    let verdict = Verdict::of_run(&pipeline, &report, &import.report, true);
+    (report, verdict)
+}
+
+#[test]
+fn a_surface_is_safe_where_three_quarters_of_its_length_are_measured() {
+    // 54 of 60 mm.
+    let (report, found) = verdict(&tube(3.0, 60.0, 0.7, 0.05), true);
+    assert_eq!((found.head, found.is_safe), (Head::Safe, Some(true)), "{found:?}");
+    let percent = found.coverage.unwrap().percent();
+    assert!((percent - 90.0).abs() < 3.0, "{percent}");
+    let head = found.head_text().to_string();
+    assert_eq!(head, format!("Safe to simulate on: {:.0} % of the length, 1 of 1 vessel", percent.floor()));
+    assert_eq!(VerdictReport::from(&found).head, head);
+    let safe = report.safe.unwrap();
+    assert!(safe.is_covered && safe.percent.is_some(), "{safe:?}");
+    assert_eq!(report.calibre.unwrap().measured_percent, Some(percent));
+}
+
+#[test]
+fn of_a_surface_that_is_measured_less_nothing_is_said_as_a_whole() {
+    // 12 of 24 mm.
+    let (report, found) = verdict(&tube(6.0, 24.0, 1.0, 0.02), true);
+    assert_eq!((found.head, found.is_safe), (Head::KeptWhereMeasured, None), "{found:?}");
+    let percent = found.coverage.unwrap().percent();
+    assert!((percent - 50.0).abs() < 12.0, "{percent}");
+    assert!(found.has_reservations());
+    let text = found.in_short(|message| message.to_string());
+    let head = format!("Kept where measured: {:.0} % of the length, 1 of 1 vessel. ", percent.floor());
+    assert!(text.starts_with(&head) && !text.contains("Safe"), "{text}");
+    let safe = report.safe.unwrap();
+    assert!(!safe.is_covered && safe.percent.is_some() && safe.refused.is_none(), "{safe:?}");
+}
+
+#[test]
+fn without_the_calibre_nothing_is_said_of_it() {
+    let (report, found) = verdict(&tube(3.0, 60.0, 0.7, 0.05), false);
+    assert_eq!((found.head, found.is_safe, found.coverage), (Head::NoneMeasured, None, None));
+    assert_eq!(found.in_short(|message| message.to_string()), "No vessel was measured.");
+    assert!(report.calibre.is_none() && report.safe.is_none());
+}
+
+#[test]
+fn a_rate_at_which_too_little_can_be_measured_is_not_safe() {
+    // At any rate that is called safe, the verdict is that it is.
+    for (length, is_safe) in [(60.0, true), (45.0, true), (14.0, false)] {
+        let mesh = tube(3.0, length, 0.7, 0.05);
+        let (report, _) = verdict(&mesh, true);
+        let safe = report.safe.unwrap();
+        let rate = Target::Reduction((safe.percent.unwrap() * 10.0).round() as u32);
+        let settings = Settings { target: rate, ..Settings::default() };
+        let mut pipeline = Pipeline::new(Arc::new(mesh), settings).with_samples(200).with_certificate();
+        pipeline.finish().unwrap();
+        let certificate = &pipeline.certified().unwrap().as_ref().unwrap().certificate;
+        assert_eq!(certificate.coverage, safe.coverage.unwrap(), "{length} mm");
+        assert_eq!((safe.is_covered, certificate.coverage.is_enough()), (is_safe, is_safe), "{length} mm: {safe:?}");
+    }
+}
+
+#[test]
+fn a_narrowing_is_a_note_with_its_degree_its_length_and_its_reference() {
+    let radius = |z: f64| 3.0 * (1.0 - 0.6 * libm::exp(-(z - 30.0) * (z - 30.0) / 32.0));
+    let (_, found) = verdict(&turned(48, 60.0, 0.4, 0.0, radius), true);
+    let narrower = found.findings.iter().find(|finding| matches!(finding.what, FindingKind::Narrower { .. }));
+    let finding = narrower.unwrap_or_else(|| panic!("{found:?}"));
+    let FindingKind::Narrower { percent, length, .. } = finding.what else { unreachable!() };
+    // Where the bell is a twentieth.
+    let expected = 2.0 * (32.0 * (0.6f64 / 0.05).ln()).sqrt();
+    assert!((percent - 60.0).abs() < 2.0 && (length - expected).abs() < 1.8, "{percent} % over {length} mm");
+    assert!(!finding.is_grave && (finding.place.as_ref().unwrap().at_mm[2] - 30.0).abs() < 1.0, "{finding:?}");
+    let text = finding.what.to_string();
+    let told = format!("branch 1 is {percent:.0} % narrower over {length:.1} mm");
+    assert!(text.contains(&told) && text.contains(" mm, by the diameters at "), "{text}");
+}
