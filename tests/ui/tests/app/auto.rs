@@ -2,7 +2,7 @@
 
 use egui::accesskit::Role;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::pipeline::settings::Target;
 use lumen_ui_tests::{DESKTOP, app, app_in_full, open, says, settle_wholly, tube};
