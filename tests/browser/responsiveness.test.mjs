@@ -28,7 +28,7 @@ const LONGEST_ARRIVAL = 100;
 const LONGEST_SLICE = 500;
 /** From pressing it to the answer, by the wall: the median, and at worst, where it comes in the middle of a piece that is not sliced. */
 const USUAL_CANCEL = 50;
-const LONGEST_CANCEL = 150;
+const LONGEST_CANCEL = 250;
 /** What the status bar says while the engine works. */
 const WORKING = "^(Finding pieces|Smoothing|Reducing|Taking the level|Measuring deviation) \\d+ %$";
 
