@@ -102,9 +102,17 @@ async function find(page, role, name) {
 }
 
 async function choose(page, name) {
-  await find(page, "combobox", "Device");
-  await twin(page, "option", name).waitFor({ state: "attached" });
+  const option = twin(page, "option", name);
+  // The list may have moved away from under the pointer, with what stands above it.
+  for (let tries = 0; tries < 5 && (await option.count()) === 0; tries++) {
+    await find(page, "combobox", "Device");
+    await option.waitFor({ state: "attached", timeout: 6_000 }).catch(() => {});
+  }
+  await option.waitFor({ state: "attached" });
   await press(page, "option", name);
+  await option.waitFor({ state: "detached" });
+  // The panel is as long as the device's controls have it: the next list stands elsewhere.
+  await frames(page, 20);
 }
 
 const isStart = ({ id, bytes }) => id === 4 && bytes[1] < 3;
