@@ -103,11 +103,7 @@ async function find(page, role, name) {
 
 async function choose(page, name) {
   const option = twin(page, "option", name);
-  // The list may have moved away from under the pointer, with what stands above it.
-  for (let tries = 0; tries < 5 && (await option.count()) === 0; tries++) {
-    await find(page, "combobox", "Device");
-    await option.waitFor({ state: "attached", timeout: 6_000 }).catch(() => {});
-  }
+  await find(page, "combobox", "Device");
   await option.waitFor({ state: "attached" });
   await press(page, "option", name);
   await option.waitFor({ state: "detached" });

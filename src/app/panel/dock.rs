@@ -7,7 +7,7 @@ use super::reduce::{DEFAULT_BOUND, LARGEST_BOUND};
 use super::{entering, measured, set};
 use crate::app::action::Action;
 use crate::app::control::{self, Form, Setting};
-use crate::app::row::{number, row};
+use crate::app::row::{number, remark, row};
 use crate::app::state::State;
 use crate::app::theme;
 use crate::language::{decimal, tell, text};
@@ -130,9 +130,10 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
         help += " ";
         help += &say!("panel-safe-changed", count = changed);
     }
-    if let Some(coverage) = safe.and_then(|safe| safe.coverage) {
+    let coverage = safe.and_then(|safe| safe.coverage).map(|coverage| tell(&coverage.text()));
+    if let Some(coverage) = &coverage {
         help += " ";
-        help += &say!("panel-safe-rests", coverage = tell(&coverage.text()));
+        help += &say!("panel-safe-rests", coverage = coverage);
     }
     let is_covered = safe.is_none_or(|safe| safe.coverage.is_none() || safe.is_covered());
     let label = if is_covered { say!("panel-safe") } else { say!("panel-kept-to") };
@@ -150,6 +151,7 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
             (None, _) => "...".to_owned(),
         });
     });
+    remark(ui, coverage.as_deref().unwrap_or("..."));
 }
 
 /// How many triangles the level has, and how many there were before the reduction.
