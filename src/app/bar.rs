@@ -94,9 +94,13 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
                     let verdict = verdict::verdict(state, document);
                     ui.set_max_width(300.0);
                     let colour = ui.visuals().error_fg_color;
-                    wrapped(ui, &verdict.in_short(tell), |text| match verdict.is_safe {
-                        Some(false) => text.small().color(colour),
-                        _ => text.small().weak(),
+                    ui.scope(|ui| {
+                        // What is found while the menu is open moves nothing in it.
+                        ui.set_min_height(VERDICT_LINES * ui.text_style_height(&TextStyle::Small));
+                        wrapped(ui, &verdict.in_short(tell), |text| match verdict.is_safe {
+                            Some(false) => text.small().color(colour),
+                            _ => text.small().weak(),
+                        });
                     });
                     ui.separator();
                 }
@@ -298,6 +302,9 @@ fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, ask: &mut i
     ask(ui.button(say!("app-help")).clicked(), Action::Help);
     ask(ui.button(say!("app-about")).clicked(), Action::About);
 }
+
+/// Lines that there is room for in the verdict over what can be saved.
+const VERDICT_LINES: f32 = 4.0;
 
 /// The most lines that a notice takes in the bar below.
 const MAX_LINES: usize = 5;

@@ -141,7 +141,7 @@ impl Setting<'_> {
         if response.has_focus() {
             self.take_keys(ui, value);
         }
-        describe(&response, Role::Slider, self.name, *value);
+        describe(&response, Role::Slider, self.name, self.rounded(*value));
         if let Some(mark) = mark {
             self.draw_mark(ui, response.rect, mark);
         }
@@ -192,7 +192,7 @@ impl Setting<'_> {
         if way.scroll(ui, &response) {
             *value = before;
         }
-        describe(&response, Role::SpinButton, &say!("panel-value", name = self.name), *value);
+        describe(&response, Role::SpinButton, &say!("panel-value", name = self.name), self.rounded(*value));
     }
 
     fn reset(&self, ui: &mut Ui, value: f64) -> bool {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::engine::{Averaged, Calibre, Deviated, FaultsFound, LevelArrays, Opened, Reduced, Source};
 use crate::io::{Axes, Format, ImportReport};
-use crate::mesh::{Bounds, TriMesh, compacted};
+use crate::mesh::{Bounds, TriMesh, compacted, used_vertices};
 use crate::pipeline::classes::Classes;
 use crate::pipeline::connectivity::Component;
 use crate::pipeline::pinch::Pinch;
@@ -252,7 +252,7 @@ impl Document {
     fn set_shown(&mut self, level: Level) {
         let Some((_, levels)) = &self.levels else { return };
         if self.shown.as_ref().is_none_or(|shown| shown.level != level) {
-            let vertices = levels.nodes_in_use(&level.triangles);
+            let vertices = used_vertices(levels.positions.len(), &level.triangles).len();
             self.shown = Some(Shown { level, vertices, classes: OnceCell::new() });
             self.revision.shown += 1;
         }

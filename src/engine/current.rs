@@ -16,7 +16,7 @@ use super::message::{Event, Work};
 use super::progress::tell_progress;
 use super::record::Origin;
 use crate::language::tell;
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, used_vertices};
 use crate::pipeline::report::Report;
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::{Settings, SettingsError};
@@ -99,8 +99,8 @@ impl Current {
                 self.reached = generation;
                 if let Some(mesh) = self.pipeline.progressive().filter(|_| self.has_new_levels) {
                     let keep = self.pipeline.settings().keep;
-                    let reduced =
-                        Reduced { generation, keep, vertices: mesh.nodes_in_use(&mesh.triangles), mesh: mesh.clone() };
+                    let vertices = used_vertices(mesh.positions.len(), &mesh.triangles).len();
+                    let reduced = Reduced { generation, keep, vertices, mesh: mesh.clone() };
                     events.push_back(Event::Reduced(Box::new(reduced)));
                     self.has_new_levels = false;
                 }

@@ -6,7 +6,7 @@ import { readFile } from "node:fs/promises";
 import { basename, join } from "node:path";
 import { after, before, test } from "node:test";
 import { grouped, settled } from "./app.mjs";
-import { COARSE, data, frames, launch, openApp } from "./browser.mjs";
+import { COARSE, data, frames, launch, openApp, press } from "./browser.mjs";
 
 const SEGMENT = join(data, "real/aorta-surface-segment-2.stl");
 /** A fact of data/INDEX.md. */
@@ -19,6 +19,7 @@ after(() => browser.close());
 test("a file can be dropped on the window", { skip: existsSync(SEGMENT) ? false : `${SEGMENT} is not there` }, async (t) => {
   const { page, wrong } = await openApp(t, browser, { context: COARSE });
   await settled(page);
+  await press(page, "button", "Surface");
   const file = { name: basename(SEGMENT), base64: (await readFile(SEGMENT)).toString("base64") };
   const dataTransfer = await page.evaluateHandle(({ name, base64 }) => {
     const transfer = new DataTransfer();

@@ -136,6 +136,7 @@ test("a lost WebGPU device is replaced, and all is as it was", async (t) => {
 test("full graphics memory is told in a sentence, and a coarser level is drawn again", async (t) => {
   const { page, wrong } = await openApp(t, webgpu, { context: COARSE, before: (page) => page.addInitScript(keepDevices) });
   await settled(page);
+  await press(page, "button", "Close the invitation");
   const before = await silhouette(page, views.shaded(page));
   await page.evaluate(() => {
     const error = new GPUOutOfMemoryError("injected");

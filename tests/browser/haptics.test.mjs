@@ -102,9 +102,13 @@ async function find(page, role, name) {
 }
 
 async function choose(page, name) {
+  const option = twin(page, "option", name);
   await find(page, "combobox", "Device");
-  await twin(page, "option", name).waitFor({ state: "attached" });
+  await option.waitFor({ state: "attached" });
   await press(page, "option", name);
+  await option.waitFor({ state: "detached" });
+  // The panel is as long as the device's controls have it: the next list stands elsewhere.
+  await frames(page, 20);
 }
 
 const isStart = ({ id, bytes }) => id === 4 && bytes[1] < 3;

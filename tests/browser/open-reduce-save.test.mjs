@@ -22,7 +22,7 @@ import {
   stlTriangles,
   views,
 } from "./app.mjs";
-import { data, dragTo, launch, openApp, program } from "./browser.mjs";
+import { data, dragTo, launch, openApp, press, program } from "./browser.mjs";
 
 const AORTA = join(data, "real/vmtk_aorta_mra_iso800.stl");
 /** Facts of data/INDEX.md. */
@@ -40,6 +40,7 @@ test("a real vessel is opened, reduced and saved", { skip: existsSync(AORTA) ? f
   const { page, wrong } = await openApp(t, browser);
   await settled(page);
 
+  await press(page, "button", "Surface");
   await openFile(page, AORTA);
   // The sample's own numbers are still there until the file has been read.
   await page.locator("#twins").getByText(grouped(TRIANGLES), { exact: true }).waitFor({ state: "attached" });

@@ -26,9 +26,8 @@ const LONGEST_TASK = 16;
 const LONGEST_ARRIVAL = 100;
 /** Of the Worker, at a million triangles: some sums of the measures are one piece each (src/pipeline/shape.rs says so). */
 const LONGEST_SLICE = 500;
-/** From pressing it to the answer, by the wall: the median, and at worst, where it comes in the middle of a piece that is not sliced. */
-const USUAL_CANCEL = 50;
-const LONGEST_CANCEL = 150;
+/** From pressing it to the answer, by the wall, at worst. */
+const LONGEST_CANCEL = 50;
 /** What the status bar says while the engine works. */
 const WORKING = "^(Finding pieces|Smoothing|Reducing|Taking the level|Measuring deviation) \\d+ %$";
 
@@ -191,7 +190,6 @@ test("a million triangles are worked on beside a page that stays responsive", { 
   assert(slices.length > 0, "the Worker's tasks were seen");
   assert(worst(others.map(({ ms }) => ms)) <= LONGEST_TASK, `a task of ${told(others.slice(0, 1))}`);
   assert(worst(arrivals.map(({ ms }) => ms)) <= LONGEST_ARRIVAL, `a task of ${told(arrivals.slice(0, 1))}`);
-  assert(median(answers) <= USUAL_CANCEL, `cancel answered after ${median(answers)} ms, half of the time`);
   assert(worst(answers) <= LONGEST_CANCEL, `cancel answered after ${worst(answers)} ms`);
   assert(worst(slices.map(({ ms }) => ms)) <= LONGEST_SLICE, `the Worker hears nothing for ${told(slices.slice(0, 1))}`);
 });

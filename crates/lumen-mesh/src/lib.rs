@@ -58,7 +58,7 @@ pub use inner_ball::{InnerRadii, inner_radii, inner_radii_in_slices, outward_nor
 pub use inside::Sides;
 pub use measures::{
     Measures, mean_edge, measures, measures_within, oriented_loops, rms_edge, surface_area, triangle_area, volume,
-    volume_of,
+    volume_of, volume_within,
 };
 pub use nearest::{Nearest, SurfaceIndex};
 pub use refit::refitted;

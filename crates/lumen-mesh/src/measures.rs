@@ -72,7 +72,8 @@ pub fn volume(mesh: &TriMesh, topology: &Topology) -> f64 {
     volume_within(mesh, &boundary_loops(topology))
 }
 
-fn volume_within(mesh: &TriMesh, loops: &[Vec<u32>]) -> f64 {
+/// As [`volume`], of a surface whose boundary loops are known.
+pub fn volume_within(mesh: &TriMesh, loops: &[Vec<u32>]) -> f64 {
     let origin = mesh.bounds().centre().as_dvec3();
     volume_of(&mesh.triangles, loops, |v| mesh.positions[v as usize].as_dvec3() - origin)
 }

@@ -318,16 +318,6 @@ impl ProgressiveMesh {
         heirs
     }
 
-    /// How many nodes `triangles` of a level use.
-    ///
-    /// # Panics
-    /// When an index is out of range.
-    pub fn nodes_in_use(&self, triangles: &[[u32; 3]]) -> usize {
-        let mut used = vec![false; self.positions.len()];
-        triangles.as_flattened().iter().for_each(|&node| used[node as usize] = true);
-        used.into_iter().filter(|&used| used).count()
-    }
-
     /// The level without any step as a surface over the nodes: the one that entered, in another order.
     pub fn finest(&self) -> TriMesh {
         TriMesh { positions: self.positions.clone(), triangles: self.triangles.clone() }

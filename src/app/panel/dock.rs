@@ -1,13 +1,13 @@
 //! What of the method is always in sight: the sliders of pass band, iterations and reduction with their numbers, how far a
 //! reduction is safe, and how many triangles are left.
 
-use egui::Ui;
+use egui::{Align, Label, Layout, RichText, Ui};
 
 use super::reduce::{DEFAULT_BOUND, LARGEST_BOUND};
 use super::{entering, measured, set};
 use crate::app::action::Action;
 use crate::app::control::{self, Change, Form, Setting};
-use crate::app::row::{number, row};
+use crate::app::row::{number, remark, row};
 use crate::app::state::State;
 use crate::app::theme;
 use crate::language::{decimal, tell, text};
@@ -21,6 +21,8 @@ use crate::say;
 const WIDE: f32 = 560.0;
 /// Room between sliders that stand side by side, in points.
 const GAP: f32 = 24.0;
+/// Part of a row that its two lines of label may take.
+const LABELS: f32 = 0.6;
 
 /// Shows the dock. Its height depends on the width alone, whatever is known.
 pub(in crate::app) fn dock(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
@@ -37,7 +39,7 @@ pub(in crate::app) fn dock(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) 
                     ui.label(counts(state));
                 });
                 reduction(&mut columns[2], state, &mut settings, Form::Tall);
-                limit(&mut columns[2], state, &mut settings);
+                limit(&mut columns[2], state, &mut settings, Form::Tall);
             });
         });
     } else {
@@ -45,7 +47,7 @@ pub(in crate::app) fn dock(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) 
         smoothing(ui, "pass-band", &mut settings, form);
         smoothing(ui, "iterations", &mut settings, form);
         reduction(ui, state, &mut settings, form);
-        limit(ui, state, &mut settings);
+        limit(ui, state, &mut settings, form);
         number(ui, &say!("panel-triangles"), &counts(state), &say!("panel-of-help"));
     }
     set(settings, state, asked);
@@ -103,11 +105,11 @@ fn target_row(
 }
 
 /// How far the reduction may go.
-fn limit(ui: &mut Ui, state: &State, settings: &mut Settings) {
+fn limit(ui: &mut Ui, state: &State, settings: &mut Settings, form: Form) {
     if settings.target.deviation_mm().is_some() {
         next_coarser(ui, state, settings);
     } else {
-        safe_row(ui, state.safe(), settings.tolerance_percent, &mut settings.target);
+        safe_row(ui, state.safe(), settings.tolerance_percent, &mut settings.target, form);
     }
 }
 
@@ -125,7 +127,7 @@ fn next_coarser(ui: &mut Ui, state: &State, settings: &Settings) {
 }
 
 /// What is safe in words, and a way there. The row is there before it is known: what lies below must not move when it is.
-fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Target) {
+fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Target, form: Form) {
     let mut help = say!("panel-safe-help", tolerance = tolerance);
     if let Some(why) = safe.and_then(|safe| safe.stopped_by.as_ref()) {
         help += &format!(" {}.", tell(why));
@@ -139,15 +141,17 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
         help += " ";
         help += &say!("panel-safe-changed", count = changed);
     }
-    if let Some(coverage) = safe.and_then(|safe| safe.coverage) {
+    let coverage = safe.and_then(|safe| safe.coverage).map(|coverage| tell(&coverage.text()));
+    if let Some(coverage) = &coverage {
         help += " ";
-        help += &say!("panel-safe-rests", coverage = tell(&coverage.text()));
+        help += &say!("panel-safe-rests", coverage = coverage);
     }
     let is_covered = safe.is_none_or(|safe| safe.coverage.is_none() || safe.is_covered());
     let label = if is_covered { say!("panel-safe") } else { say!("panel-kept-to") };
     let percent = safe.and_then(|safe| safe.percent);
     let wanted = percent.map(verdict::rate);
-    row(ui, &label, &help, |ui| {
+    let rests = coverage.as_deref().unwrap_or("...");
+    let control = |ui: &mut Ui| {
         let go =
             ui.add_enabled(wanted.is_some_and(|wanted| wanted != *target), egui::Button::new(say!("panel-go-there")));
         if let Some(wanted) = wanted.filter(|_| go.on_hover_text(say!("panel-safe-go-help")).clicked()) {
@@ -158,7 +162,25 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
             (Some(_), None) => "–".to_owned(),
             (None, _) => "...".to_owned(),
         });
-    });
+    };
+    match form {
+        Form::Tall => {
+            row(ui, &label, &help, control);
+            remark(ui, rests);
+        }
+        // A row for a finger has room for two lines.
+        Form::Low => {
+            ui.horizontal(|ui| {
+                ui.vertical(|ui| {
+                    ui.set_max_width(ui.available_width() * LABELS);
+                    ui.spacing_mut().item_spacing.y = 0.0;
+                    ui.label(label).on_hover_text(help);
+                    ui.add(Label::new(RichText::new(rests).small()).truncate());
+                });
+                ui.with_layout(Layout::right_to_left(Align::Center), control);
+            });
+        }
+    }
 }
 
 /// How many triangles the level has, and how many there were before the reduction.

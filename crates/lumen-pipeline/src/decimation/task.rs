@@ -50,14 +50,18 @@ pub async fn decimate_in_slices(
     yielder: &Yielder,
 ) -> Decimated {
     let mut run = Run::new(mesh, topology, settings);
+    yielder.rest(0.0).await;
     // Slots get their rings, those without one are dropped, and pieces are counted.
     while !run.surface.rings.link(mesh, topology, LINKED) {
         yielder.rest(0.0).await;
     }
     yielder.rest(0.0).await;
+    run.surface.rings.compact();
+    yielder.rest(0.0).await;
     run.number(holds.widths);
     yielder.rest(0.0).await;
     let count = components(mesh.positions.len(), &mesh.triangles).count();
+    yielder.rest(0.0).await;
     run.surface.guard.start(&run.surface.rings, count == 1 && run.surface.rings.is_closed());
     yielder.rest(0.0).await;
     run.guard_ready(yielder, 0.0).await;
@@ -86,7 +90,8 @@ pub async fn decimate_in_slices(
         yielder.rest(done).await;
         run.guard_ready(yielder, done).await;
     }
-    run.result()
+    yielder.rest(1.0).await;
+    run.result(yielder).await
 }
 
 /// A run under way.
@@ -124,9 +129,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Drops slots without a ring, and gets ready for the others.
+    /// Gets ready for the slots that have a ring.
     fn number(&mut self, widths: Option<&[f32]>) {
-        self.surface.rings.compact();
         let count = self.surface.rings.len();
         self.surface.method.start(count);
         if let Some(widths) = widths {
@@ -266,7 +270,7 @@ impl<'a> Run<'a> {
         self.schedule.next_round()
     }
 
-    fn result(self) -> Decimated {
+    async fn result(self, yielder: &Yielder) -> Decimated {
         let mut limit = Limit::default();
         for state in &self.schedule.states {
             match state.stuck {
@@ -278,7 +282,9 @@ impl<'a> Run<'a> {
         }
         let made = &self.surface.rings.made;
         let vertex_of_node = ProgressiveMesh::vertices_of_nodes(self.mesh.positions.len(), made.len(), &self.merges);
+        yielder.rest(1.0).await;
         let levels = ProgressiveMesh::from_merges(self.mesh, &self.merges, made, self.errors, limit);
+        yielder.rest(1.0).await;
         Decimated { progressive: levels.with_lines(&self.lines, &vertex_of_node), vertex_of_node }
     }
 }

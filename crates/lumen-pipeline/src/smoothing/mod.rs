@@ -97,7 +97,9 @@ pub async fn smooth_varying(
     yielder: &Yielder,
 ) -> (Vec<Vec3>, Option<Terms>) {
     let stencil = Stencil::new(positions, topology, settings.boundary);
+    yielder.rest(0.0).await;
     let (gains, mixes) = Gains::varying(settings, pass_bands);
+    yielder.rest(0.0).await;
     filtered(positions.to_vec(), stencil, Coefficients { gains, mixes, gain: 1.0 }, bytes, yielder).await
 }
 
@@ -127,6 +129,7 @@ async fn filtered(
     let Coefficients { gains, mixes, gain } = coefficients;
     let centre = Bounds::of_most(&values).centre();
     let mut order = Order::new(&stencil, &mixes);
+    yielder.rest(0.0).await;
     let chunks = order.chunks.len() - 1;
     let count = strip_count(chunks);
     let widest = order.chunks.windows(2).map(|pair| (pair[1] - pair[0]) as usize).max().unwrap_or(1).max(1);
@@ -163,6 +166,7 @@ async fn filtered(
         first += wave.count;
         yielder.rest((first - 1) as f32 / degree as f32).await;
     }
+    yielder.rest(1.0).await;
     let sums: Vec<&[Vec4]> = strips.iter().map(Strip::own_sum).collect();
     let positions = placement.place(&sums, gain);
     let blocks = strips.into_iter().map(|strip| strip.terms).collect();

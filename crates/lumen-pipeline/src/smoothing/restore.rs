@@ -54,10 +54,14 @@ pub(crate) async fn restore(
     let Surface { mesh, topology, .. } = kept;
     let steps = MEANS as f32 + 3.0;
     let stencil = Stencil::new(&mesh.positions, topology, settings.boundary);
+    yielder.rest(0.0).await;
     let before = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
     yielder.rest(1.0 / steps).await;
     let after = vertex_normals(&smoothed, &mesh.triangles, Weighting::Area);
-    let mut losses = losses(kept, &before, &smoothed, &after);
+    yielder.rest(1.0 / steps).await;
+    let typical = rms_edge(mesh) as f32;
+    yielder.rest(1.0 / steps).await;
+    let mut losses = losses(kept, typical, &before, &smoothed, &after);
     drop(before);
     yielder.rest(2.0 / steps).await;
 
@@ -79,6 +83,7 @@ pub(crate) async fn restore(
     }
 
     let directions = directions(&smoothed, &after, loops);
+    yielder.rest((steps - 1.0) / steps).await;
     let mut positions = smoothed;
     parallel::for_each_chunk_mut(&mut positions, PIECE, |first, chunk| {
         for (v, position) in (first..).zip(chunk) {
@@ -92,9 +97,9 @@ pub(crate) async fn restore(
 }
 
 /// What smoothing took at each vertex, in mm, positive where the surface moved inwards; `before` and `after` are its normals.
-fn losses(kept: &Surface, before: &[Vec3], smoothed: &[Vec3], after: &[Vec3]) -> Vec<f32> {
+/// `typical` is the surface's root mean square edge in mm.
+fn losses(kept: &Surface, typical: f32, before: &[Vec3], smoothed: &[Vec3], after: &[Vec3]) -> Vec<f32> {
     let opened = &kept.mesh.positions;
-    let typical = rms_edge(&kept.mesh) as f32;
     let loss = |v: usize| {
         let loss = (opened[v] - smoothed[v]).dot((before[v] + after[v]).normalize_or_zero());
         // What moved by more than an edge was no vessel's wall: a flap, a short slit drawn together, or a spike, whose own

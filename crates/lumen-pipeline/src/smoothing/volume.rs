@@ -24,7 +24,7 @@ use crate::filter::Filter;
 use crate::normals::{Weighting, vertex_normals};
 use crate::settings::Boundary;
 use crate::task::Yielder;
-use lumen_mesh::{Topology, TriMesh, measures_within, volume_of};
+use lumen_mesh::{Topology, TriMesh, volume_of, volume_within};
 
 /// How near to the volume asked for counts as held, as a part of it.
 pub(crate) const TOLERANCE: f64 = 1e-4;
@@ -124,7 +124,7 @@ fn place(before: &Before, smoothed: &[Vec3], normals: &[Vec3], field: &[Vec3]) -
         let m = nearest_root(volumes.map(|volume| volume - target)).filter(|m| m.abs() <= MAX_M)?;
         let positions = (0..smoothed.len()).map(|v| placed(v, m)).collect();
         let mesh = TriMesh { positions, triangles: before.mesh.triangles.clone() };
-        let missing = before.volume - measures_within(&mesh, Some(before.loops)).volume_mm3?;
+        let missing = before.volume - volume_within(&mesh, before.loops);
         if missing.abs() <= TOLERANCE / 2.0 * before.volume.abs() {
             return (turned(before.mesh, &mesh) <= TORN).then_some(mesh.positions);
         }

@@ -51,6 +51,7 @@ fn start(store: &Store) -> Option<Run> {
         let part = yielder.part(begun..1.0);
         let Decimated { progressive, vertex_of_node } =
             decimate_in_slices(&smoothed.mesh, &kept.topology, &settings, holds, &part).await;
+        yielder.rest(1.0).await;
         let finest = Arc::new(progressive.finest());
         let vertex_of_node = if needs_vertices { vertex_of_node } else { Vec::new() }.into();
         let levels = Levels { progressive: Arc::new(progressive), finest, vertex_of_node };

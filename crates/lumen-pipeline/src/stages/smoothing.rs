@@ -17,7 +17,7 @@ use crate::stage::Stage;
 use crate::store::Store;
 use crate::task::Yielder;
 use crate::times::Part;
-use lumen_mesh::{SurfaceIndex, TriMesh, Vec3, measures_within, rms_edge};
+use lumen_mesh::{Measures, SurfaceIndex, TriMesh, Vec3, rms_edge, surface_area, volume_within};
 use lumen_vessel::width::widths;
 
 pub(super) const ROW: Row = Row {
@@ -94,7 +94,7 @@ impl Filtering {
             Guarded::without(TriMesh { positions, triangles: self.kept.mesh.triangles.clone() })
         };
         yielder.rest(1.0).await;
-        self.result(guarded, volume_held, bands.as_deref(), outbox)
+        self.result(guarded, volume_held, bands.as_deref(), yielder, outbox).await
     }
 
     /// The least pass band of each vertex.
@@ -144,12 +144,23 @@ impl Filtering {
         positions
     }
 
-    fn result(&self, guarded: Guarded, volume_held: Option<bool>, bands: Option<&[f32]>, outbox: &Outbox) -> Smoothed {
+    async fn result(
+        &self,
+        guarded: Guarded,
+        volume_held: Option<bool>,
+        bands: Option<&[f32]>,
+        yielder: &Yielder,
+        outbox: &Outbox,
+    ) -> Smoothed {
         let Guarded { mesh, weakened, crosses_nothing } = guarded;
         let begun = Instant::now();
-        let measures = measures_within(&mesh, self.kept.loops.as_deref());
+        let volume_mm3 = self.kept.loops.as_deref().map(|loops| volume_within(&mesh, loops));
+        yielder.rest(1.0).await;
+        let measures = Measures { area_mm2: surface_area(&mesh), volume_mm3 };
         outbox.tell_apart(Part::SmoothedAreas, begun);
+        yielder.rest(1.0).await;
         let response = SmoothingResponse::new(&self.filter, self.settings.pass_band, rms_edge(&mesh));
+        yielder.rest(1.0).await;
         // What is put back has the volume that it had.
         let change = self.kept.measures.volume_mm3.zip(measures.volume_mm3).map(|(before, after)| after / before - 1.0);
         let is_held = weakened.is_none() || change.is_some_and(|change| change.abs() <= VOLUME_TOLERANCE);

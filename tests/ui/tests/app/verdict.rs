@@ -51,6 +51,7 @@ fn of_what_is_measured_little_it_is_said_how_little_and_a_click_leads_to_the_res
     let link = harness.get_by_role_and_label(Role::Button, &words).rect();
     assert!(link.left() > head.right() && link.center().y - head.center().y < 4.0, "beside it");
     assert!(says(&harness, "Kept to"), "so is the rate told");
+    assert_eq!(harness.query_all_by_label(&words).count(), 2, "and what it rests on");
     for way in [&*words, "Show unmeasured"] {
         harness.get_all_by_role_and_label(Role::Button, way).next().unwrap().click();
         harness.run_steps(3);
