@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use egui::text::LayoutJob;
-use egui::{Button, Context, Galley, Response, RichText, Role, TextStyle, TextWrapMode, Ui, WidgetText};
+use egui::{Button, Color32, Context, Galley, Response, RichText, Role, TextStyle, TextWrapMode, Ui, WidgetText};
 
 use super::action::Action;
 use super::assist::name;
@@ -13,7 +13,7 @@ use super::icon::{self, Icon};
 use super::menus::{long_menu, menu};
 use super::mode::{Entry, Group, Mode};
 use super::options::{Colours, ViewOptions};
-use super::row::wrapped;
+use super::row::unbroken;
 use super::sides::side_label;
 use super::state::State;
 use super::views::Views;
@@ -94,14 +94,8 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
                     let verdict = verdict::verdict(state, document);
                     ui.set_max_width(300.0);
                     let colour = ui.visuals().error_fg_color;
-                    ui.scope(|ui| {
-                        // What is found while the menu is open moves nothing in it.
-                        ui.set_min_height(VERDICT_LINES * ui.text_style_height(&TextStyle::Small));
-                        wrapped(ui, &verdict.in_short(tell), |text| match verdict.is_safe {
-                            Some(false) => text.small().color(colour),
-                            _ => text.small().weak(),
-                        });
-                    });
+                    let colour = if verdict.is_safe == Some(false) { colour } else { ui.visuals().weak_text_color() };
+                    in_lines(ui, &verdict.in_short(tell), colour);
                     ui.separator();
                 }
                 for format in Format::ALL {
@@ -303,8 +297,20 @@ fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, ask: &mut i
     ask(ui.button(say!("app-about")).clicked(), Action::About);
 }
 
-/// Lines that there is room for in the verdict over what can be saved.
-const VERDICT_LINES: f32 = 4.0;
+/// Lines of the verdict over what can be saved.
+const VERDICT_LINES: usize = 4;
+
+/// A text in small letters in the room of so many lines, so that what is found while a menu is open moves nothing in it. The
+/// whole is told where the pointer rests, and to assistive tools.
+fn in_lines(ui: &mut Ui, text: &str, colour: Color32) {
+    let mut job = LayoutJob::simple(unbroken(text), TextStyle::Small.resolve(ui.style()), colour, ui.available_width());
+    job.wrap.max_rows = VERDICT_LINES;
+    ui.scope(|ui| {
+        ui.set_min_height(VERDICT_LINES as f32 * ui.text_style_height(&TextStyle::Small));
+        let response = ui.label(job).on_hover_text(text);
+        name(&response, Role::Label, text);
+    });
+}
 
 /// The most lines that a notice takes in the bar below.
 const MAX_LINES: usize = 5;

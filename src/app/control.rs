@@ -6,6 +6,7 @@ use std::ops::RangeInclusive;
 use egui::{
     Align, ComboBox, Direction, DragValue, Key, Label, Layout, Modifiers, ProgressBar, RichText, Role, Slider, Ui, vec2,
 };
+use std::borrow::Cow;
 
 use super::assist::{describe, name};
 use super::icon::{self, Icon};
@@ -98,7 +99,7 @@ impl Setting<'_> {
                 // As high as the field: name, field and button stand on one line.
                 ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), NAME_ROW);
                 ui.horizontal(|ui| {
-                    ui.label(self.name).on_hover_text(self.help.to_owned());
+                    ui.label(self.title()).on_hover_text(self.help.to_owned());
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         is_reset = self.reset(ui, *value);
                         self.typed(ui, value, way);
@@ -108,8 +109,7 @@ impl Setting<'_> {
                 self.slider(ui, value, way, mark);
             }
             Form::Low => {
-                let name = RichText::new(self.name).small();
-                ui.add(Label::new(name)).on_hover_text(self.help.to_owned());
+                ui.add(Label::new(RichText::new(self.title()).small())).on_hover_text(self.help.to_owned());
                 // Closer to its own slider than to the one above.
                 ui.add_space(-LOW_GAP);
                 ui.horizontal(|ui| {
@@ -125,6 +125,14 @@ impl Setting<'_> {
             }
         }
         is_reset
+    }
+
+    /// What stands above the slider: the name, and whether it is set by itself.
+    fn title(&self) -> Cow<'_, str> {
+        match self.auto {
+            Some(true) => format!("{} ({})", self.name, say!("panel-auto-short")).into(),
+            _ => self.name.into(),
+        }
     }
 
     /// The slider, as wide as there is room.

@@ -268,6 +268,10 @@ impl Document {
     ) {
         let steps = report.bound.map(|bound| bound.steps).or(report.auto.map(|auto| auto.steps));
         if let Some(steps) = steps {
+            if self.found.is_some_and(|(target, before)| target == report.settings.target && before != steps) {
+                // It was of the level before, by the same settings.
+                self.calibre = None;
+            }
             self.found = Some((report.settings.target, steps));
             self.asked = None;
         }

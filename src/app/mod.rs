@@ -163,10 +163,11 @@ impl Panels {
         }
     }
 
-    /// The mode that has the window.
+    /// The mode that has the window. A surface that has no level yet covers what is open of the one before.
     fn mode(&self, state: &State) -> Mode {
         let there = self.all().into_iter().filter(|panel| panel.is_there(state, Beside::Nothing));
-        there.filter_map(Panel::mode).max().unwrap_or(Mode::Method)
+        let modes = there.filter_map(Panel::mode).filter(|mode| *mode == Mode::Scan || !state.awaits_levels());
+        modes.max().unwrap_or(Mode::Method)
     }
 
     /// The panel that is this mode.

@@ -1,8 +1,9 @@
 //! The modes of the window, and the trait that each mode and panel implements.
 //!
 //! One [`Mode`] at a time has the window. A scan covers a trial, a trial covers the comparison, and each of them covers the
-//! method; what is covered keeps its state and is shown again when the mode above it is left. Beside the views of the method
-//! stands at most one of [`Beside`]. Collapses and a lesson combine with all of these.
+//! method. A surface that has no level yet covers all but a scan. What is covered keeps its state and is shown again when what
+//! covers it is left. Beside the views of the method stands at most one of [`Beside`]. Collapses and a lesson combine with all
+//! of these.
 //!
 //! Each mode and panel is a [`Panel`] in its own folder, with its state and its actions. Bar, keys, Escape and layout go
 //! through the list of panels (`Panels::all`) and name none of them.

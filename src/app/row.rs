@@ -168,7 +168,7 @@ const UNITS: [&str; 21] = [
 ];
 
 /// A text with a no-break space between each number and its unit.
-fn unbroken(text: &str) -> String {
+pub(super) fn unbroken(text: &str) -> String {
     let mut unbroken = String::with_capacity(text.len() + 8);
     for (i, word) in text.split(' ').enumerate() {
         if i > 0 {

@@ -250,8 +250,8 @@ fn every_message_that_is_said_is_there_and_every_one_that_is_there_is_said() {
 }
 
 /// Thresholds and sizes that are never one.
-const MANY: [&str; 5] =
-    ["compare-figure-legend", "compare-slow", "record-pixels", "views-large", "panel-array-components"];
+const MANY: [&str; 6] =
+    ["compare-figure-legend", "compare-slow", "record-pixels", "views-large", "panel-array-components", "panel-pieces"];
 
 #[test]
 fn one_of_what_is_counted_is_singular() {

@@ -147,7 +147,7 @@ mod tests {
             ("Hamming window, Schroeder method, feature angle 60°", "Pass band 0.01, 100 iterations, reduction 90 %")
         );
         let (_, names) = titles(&[&Settings::default()]);
-        assert_eq!(names, ["Pass band 0.01, 100 iterations, suits this surface, reduction 90 %"]);
+        assert_eq!(names, ["Pass band 0.01, 100 iterations, suits this surface, automatic reduction"]);
         let mut spared = Settings::default();
         spared.decimation.spare_thin = true;
         let (_, names) = titles(&[&Settings::default(), &spared]);

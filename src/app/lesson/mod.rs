@@ -45,6 +45,17 @@ pub struct Lessons {
     open: Option<Given>,
     /// What waits for the surface or the trial that a step has asked for.
     waiting: VecDeque<Ask>,
+    /// What stood before the first step.
+    stood: Option<Stood>,
+}
+
+/// What a lesson sets, as the user had it before.
+#[derive(Clone, Debug)]
+pub(super) struct Stood {
+    /// The number of the surface.
+    pub(super) surface: Option<u64>,
+    pub(super) settings: Settings,
+    pub(super) options: ViewOptions,
 }
 
 /// A lesson that is given.
@@ -104,9 +115,9 @@ impl Lessons {
         Ok(())
     }
 
-    /// Leaves the lesson.
-    pub(super) fn close(&mut self) {
-        *self = Self::default();
+    /// Leaves the lesson; says what stood before it.
+    pub(super) fn close(&mut self) -> Option<Stood> {
+        std::mem::take(self).stood
     }
 
     /// Shows the answer.
@@ -121,6 +132,11 @@ impl Lessons {
         let Some(given) = &mut self.open else { return Vec::new() };
         given.step = step.min(given.lesson.steps.len() - 1);
         given.is_answered = false;
+        self.stood.get_or_insert_with(|| Stood {
+            surface: now.state.document.as_ref().map(|document| document.revision.document),
+            settings: now.state.settings.clone(),
+            options: now.options,
+        });
         let Step { sample, settings, view, show, trial, .. } = &given.lesson.steps[given.step];
         let shows = |what: Show| show.contains(&what);
         let mut asked = Vec::new();

@@ -10,7 +10,7 @@ use crate::app::sharing::Sharing;
 use crate::app::sheets::{self, Sheet};
 use crate::app::views::Spot;
 use crate::app::{lesson, record, shortcuts, theme};
-use crate::pipeline::settings::Keep;
+use crate::pipeline::settings::{Keep, Settings};
 use crate::say;
 
 impl LumenApp {
@@ -229,8 +229,32 @@ impl LumenApp {
                     self.state.tell(&say!("app-step-link-copied"));
                 }
             }
-            lesson::Action::Close => self.panels.lesson.close(),
+            lesson::Action::Close => {
+                // A wire is in the level that the lesson has set.
+                let stood = self.panels.lesson.close().filter(|_| !self.panels.trial.trial.is_open());
+                if let Some(stood) = stood {
+                    self.give_back(stood);
+                }
+            }
             lesson::Action::Glossary => self.sheet = toggled(self.sheet, Sheet::Glossary),
+        }
+    }
+
+    /// Gives back what a lesson has changed, as a step to undo.
+    fn give_back(&mut self, stood: lesson::Stood) {
+        let lesson::Stood { surface, settings, options } = stood;
+        let is_same = self.state.document.as_ref().map(|document| document.revision.document) == surface;
+        // Pieces of one surface are none of another.
+        let keep = if is_same { settings.keep } else { self.state.settings.keep };
+        let settings = Settings { keep, ..settings };
+        self.views.options = options;
+        if !is_same {
+            self.views.options.leave_surface();
+        }
+        if settings != self.state.settings {
+            self.state.record();
+            self.state.settings = settings;
+            self.state.tell(&say!("lesson-given-back"));
         }
     }
 

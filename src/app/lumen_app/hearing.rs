@@ -94,6 +94,8 @@ impl LumenApp {
                 self.views.options.leave_surface();
             }
             Some(Effect::Reduced) => {
+                // Until now a cancel would have gone back to it.
+                self.panels.trial.trial.leave_surface(self.platform.trial());
                 // Once more, at what is kept of it; unless the camera was moved meanwhile.
                 self.look_next |= self.views.is_fitted();
                 self.recovery.opened(&mut self.state, self.look_next, &mut *self.platform);
@@ -164,8 +166,10 @@ impl LumenApp {
         let State { document, settings, .. } = &self.state;
         let has_level = self.state.has_level();
         let trial = &mut self.panels.trial.trial;
-        trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
-        trial.next_row(self.platform.trial());
+        if !self.state.awaits_levels() {
+            trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
+            trial.next_row(self.platform.trial());
+        }
         if let Some(link) = self.platform.scans() {
             self.panels.scan.scans.follow(link);
         }

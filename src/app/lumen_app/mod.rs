@@ -15,6 +15,7 @@ use super::filling::Filling;
 use super::keys::{self, Keys};
 use super::lesson::Lessons;
 use super::mode::{Beside, Mode, Now};
+use super::options::ViewOptions;
 use super::paint_guard::PaintGuard;
 use super::platform::Platform;
 use super::presenter::Presenter;
@@ -211,6 +212,11 @@ impl LumenApp {
             is_narrow: self.is_narrow,
             has_links: self.has_links,
         }
+    }
+
+    /// What the views show.
+    pub fn options(&self) -> ViewOptions {
+        self.views.options
     }
 
     /// From where the surface is looked at.

@@ -75,10 +75,7 @@ fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings, form: Form) {
             let found = state.auto().filter(|_| is_auto);
             let percent = found.map_or_else(|| target.percent(entering(state).unwrap_or(0)), |found| found.percent);
             let safe = state.safe().and_then(|safe| safe.percent);
-            let unit = format!(" % ({})", say!("panel-auto-short"));
-            target_row(ui, "reduction", percent, target, |row, ui, percent| {
-                Setting { unit: if is_auto { &unit } else { row.unit }, ..row }.show_docked(ui, percent, form, safe)
-            });
+            target_row(ui, "reduction", percent, target, |row, ui, percent| row.show_docked(ui, percent, form, safe));
         }
     }
 }

@@ -116,7 +116,8 @@ fn auto(ui: &mut Ui, state: &State, target: &mut Target) {
     ui.checkbox(&mut is_auto, text)
         .on_hover_text(say!("panel-auto-help", tolerance = state.settings.tolerance_percent));
     if is_auto != was_auto {
-        *target = if is_auto { Target::Auto } else { rate_shown(state) };
+        let came_to = state.auto().map(|found| verdict::rate(found.percent));
+        *target = if is_auto { Target::Auto } else { came_to.unwrap_or_else(|| rate_shown(state)) };
     }
 }
 

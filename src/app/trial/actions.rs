@@ -192,7 +192,7 @@ impl Trial {
         self.start(None, document, link);
     }
 
-    /// Another surface was opened: what was begun or chosen in the one before is no more.
+    /// Another surface has a level: what was begun or chosen in the one before is no more.
     pub(in crate::app) fn leave_surface(&mut self, link: &mut TrialLink) {
         self.cancel_tables(link);
         if self.is_open() {

@@ -180,10 +180,6 @@ impl Panel for TrialPanel {
         None
     }
 
-    fn leave_surface(&mut self, acting: &mut Acting<'_>) {
-        self.trial.leave_surface(acting.platform.trial());
-    }
-
     fn goes_on(&self, platform: &dyn Platform) -> bool {
         // A gamepad tells nothing by itself.
         let has_gamepad = self.trial.is_in_hand() && platform.gamepad().is_some();

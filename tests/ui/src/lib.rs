@@ -225,7 +225,8 @@ pub fn settle_wholly(harness: &mut Harness<'_, LumenApp>) {
     for _ in 0..4000 {
         let state = harness.state().state();
         let measured = state.document.as_ref().and_then(|document| document.measured.as_ref());
-        if measured.is_some_and(|measured| measured.safe.is_some()) && state.calibre().is_some() {
+        let is_known = measured.is_some_and(|measured| measured.safe.is_some()) && state.calibre().is_some();
+        if is_known && !state.is_deciding() {
             harness.run_steps(2);
             return;
         }

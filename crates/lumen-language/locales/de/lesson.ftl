@@ -18,6 +18,8 @@ lesson-copy-link-help = Öffnet diesen Schritt für alle, die ihm folgen
 lesson-look = Im Blick: { $what }
 lesson-show-answer = Antwort zeigen
 lesson-show-answer-help = Zuerst selbst antworten
+# Told as a lesson is closed.
+lesson-given-back = Einstellungen und Farben sind wie vor der Lektion. Rückgängig holt ihre Einstellungen zurück.
 
 ## Was an einer Lektion falsch ist, die eine Lehrkraft geschrieben hat
 

@@ -285,14 +285,14 @@ panel-next-coarser-none = keine
 panel-reduction = Reduktion
 panel-reduction-help = Der Teil der Dreiecke, der entfernt wird.
 panel-back-to-auto = Zurück auf automatisch
-# Behind a rate that is set by itself, in brackets: keep it short.
+# Behind the name of a rate that is set by itself, in brackets: keep it short.
 panel-auto-short = auto
 panel-auto = Automatisch: 90 % oder so weit wie sicher
 # $percent is the rate that was come to: at most 90.
 panel-auto-most = Automatisch: { $percent } %
 panel-auto-safe = Automatisch: { $percent } %, so weit wie sicher
 panel-auto-deciding = Automatisch: es wird bestimmt, wie weit es sicher ist
-panel-auto-help = Reduziert um 90 % oder so weit, wie jedes Gefäß sein Kaliber auf { $tolerance } % genau behält und keines eingeschnürt wird, je nachdem, was weniger ist. Der Regler setzt stattdessen eine Zahl.
+panel-auto-help = Reduziert um 90 % oder so weit, wie jedes Gefäß sein Kaliber auf { $tolerance } % genau behält und keines eingeschnürt wird, je nachdem, was weniger ist. Der Regler setzt stattdessen eine Zahl.
 # Followed by a rate: reduction up to it changes no vessel too much.
 panel-safe = Sicher bis
 panel-safe-help = Bis hier behält jedes messbare Gefäß sein Kaliber auf { $tolerance } % genau, keines wird eingeschnürt, und keine Dreiecke schneiden sich, die es nicht schon taten.

@@ -18,6 +18,8 @@ lesson-copy-link-help = Opens this step for whoever follows it
 lesson-look = Look at { $what }
 lesson-show-answer = Show the answer
 lesson-show-answer-help = Say your own first
+# Told as a lesson is closed.
+lesson-given-back = Settings and colours are as they were before the lesson. Undo brings its settings back.
 
 ## What is wrong with a lesson that a teacher wrote
 

@@ -276,14 +276,14 @@ panel-next-coarser-none = none
 panel-reduction = Reduction
 panel-reduction-help = The part of the triangles that is removed.
 panel-back-to-auto = Back to automatic
-# Behind a rate that is set by itself, in brackets: keep it short.
+# Behind the name of a rate that is set by itself, in brackets: keep it short.
 panel-auto-short = auto
 panel-auto = Automatic: 90 %, or as far as is safe
 # $percent is the rate that was come to: at most 90.
 panel-auto-most = Automatic: { $percent } %
 panel-auto-safe = Automatic: { $percent } %, as far as is safe
 panel-auto-deciding = Automatic: finding how far is safe
-panel-auto-help = Reduces by 90 %, or as far as every vessel keeps its calibre to { $tolerance } % and none is pinched, whichever is less. The slider sets a number instead.
+panel-auto-help = Reduces by 90 %, or as far as every vessel keeps its calibre to { $tolerance } % and none is pinched, whichever is less. The slider sets a number instead.
 # Followed by a rate: reduction up to it changes no vessel too much.
 panel-safe = Safe to
 panel-safe-help = Up to here every vessel that can be measured keeps its calibre to { $tolerance } %, none is pinched, and no triangles cross that did not.

@@ -18,6 +18,8 @@ lesson-copy-link-help = Ouvre cette étape pour qui le suit
 lesson-look = À regarder : { $what }
 lesson-show-answer = Voir la réponse
 lesson-show-answer-help = Donner d'abord la sienne
+# Told as a lesson is closed.
+lesson-given-back = Réglages et couleurs sont comme avant la leçon. Annuler rétablit ceux de la leçon.
 
 ## Ce qui ne va pas dans une leçon qu'un enseignant a écrite
 

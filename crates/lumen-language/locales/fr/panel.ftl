@@ -282,14 +282,14 @@ panel-next-coarser-none = aucun
 panel-reduction = Réduction
 panel-reduction-help = La part des triangles qui est enlevée.
 panel-back-to-auto = Revenir à automatique
-# Behind a rate that is set by itself, in brackets: keep it short.
+# Behind the name of a rate that is set by itself, in brackets: keep it short.
 panel-auto-short = auto
 panel-auto = Automatique : 90 %, ou le taux sûr
 # $percent is the rate that was come to: at most 90.
 panel-auto-most = Automatique : { $percent } %
 panel-auto-safe = Automatique : { $percent } %, le taux sûr
 panel-auto-deciding = Automatique : recherche du taux sûr
-panel-auto-help = Réduit de 90 %, ou tant que chaque vaisseau garde son calibre à { $tolerance } % près et qu'aucun n'est pincé, selon ce qui est moindre. Le curseur fixe un nombre à la place.
+panel-auto-help = Réduit de 90 %, ou tant que chaque vaisseau garde son calibre à { $tolerance } % près et qu'aucun n'est pincé, selon ce qui est moindre. Le curseur fixe un nombre à la place.
 # Followed by a rate: reduction up to it changes no vessel too much.
 panel-safe = Sûr jusqu'à
 panel-safe-help = Jusqu'ici, chaque vaisseau mesurable garde son calibre à { $tolerance } % près, aucun n'est pincé, et aucun triangle n'en croise d'autres sans l'avoir déjà fait.

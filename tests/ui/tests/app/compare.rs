@@ -85,13 +85,21 @@ fn figure_six_has_six_settings_and_a_click_takes_one() {
     assert_eq!(harness.state().state().settings, cells(&harness)[0].settings);
     settle(&mut harness);
     press(&mut harness, "Undo");
-    assert_eq!(harness.state().state().settings.target, Target::Reduction(900));
+    assert_eq!(harness.state().state().settings.target, Target::Auto);
 }
 
 #[test]
 fn settings_are_added_removed_and_never_more_than_six() {
     let mut harness = open();
-    assert!(!harness.state().state().comparison.can_add(&harness.state().state().settings), "90 % is there already");
+    let can_add = |harness: &Harness<'_, LumenApp>| {
+        let state = harness.state().state();
+        state.comparison.can_add(&state.settings)
+    };
+    assert!(can_add(&harness), "auto is none of the three");
+    harness.get_by_role_and_label(Role::RadioButton, "Reduction 90 %").click();
+    harness.run_steps(3);
+    settle(&mut harness);
+    assert!(!can_add(&harness), "90 % is there already");
     press(&mut harness, "Remove Reduction 90 %");
     assert_eq!(cells(&harness).len(), 2);
     press(&mut harness, "Add current settings");
@@ -186,7 +194,7 @@ fn all_pictures_turn_together_and_go_with_the_theme_and_the_arrangement() {
     drag(&mut harness, middle, egui::vec2(60.0, 0.0));
     let turned = look(&mut harness);
     assert!(first.iter().zip(&turned).all(|(a, b)| a != b), "one camera for all");
-    assert_eq!(harness.state().state().settings.target, Target::Reduction(900), "a drag is no click");
+    assert_eq!(harness.state().state().settings.target, Target::Auto, "a drag is no click");
     harness.get_by_role_and_label(Role::ComboBox, "Show as").click();
     harness.run_steps(3);
     harness.get_by_label("Wireframe").click();

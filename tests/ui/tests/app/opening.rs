@@ -3,7 +3,7 @@
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Keep, Target};
 use lumen_ui_tests::{DESKTOP, app, app_in_full, offered, says, settle, unfold};
@@ -159,7 +159,10 @@ fn a_surface_that_is_cancelled_on_its_way_in_leaves_the_one_that_is_open() {
     let document = harness.state().state().document.as_ref().unwrap();
     assert!(document.name != "Abdominal aorta" && document.shown.is_none());
     // It is shown as it was opened, and nothing is told of it that was of the one before.
-    assert!(says(&harness, "As opened") && says(&harness, "Being measured...") && says(&harness, "Being computed..."));
+    let view = harness.get_by_role_and_label(Role::Image, "Shaded view");
+    let told = view.accesskit_node().data().description().map(str::to_owned).unwrap_or_default();
+    assert!(told.contains("Coronary arteries as it was opened"), "{told}");
+    assert!(says(&harness, "Being measured...") && says(&harness, "Being computed..."));
     assert!(!says(&harness, "Safe to simulate on"));
     harness.get_by_role_and_label(Role::Button, "Cancel").click();
     harness.run_steps(5);

@@ -8,6 +8,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Settings, Target};
 use lumen_ui_tests::{DESKTOP, Kept, app, app_in_full, page, says, settle};
 
+use crate::controls::press_at;
 use crate::recovery::{notice, tell};
 
 /// Clicks the control that is called so, once it is there; scrolls to it first.
@@ -119,6 +120,33 @@ fn a_teacher_opens_a_lesson_of_his_own_and_is_told_what_is_wrong_with_it() {
     tell(&mut harness, &memory, file(&text.replace("reduction=50", "reduction=5000")));
     assert!(notice(&harness).starts_with("Mine.Lesson: Line 5 of the lesson:"), "{}", notice(&harness));
     assert!(says(&harness, "Mine, 1 of 1"), "what was given stays");
+}
+
+#[test]
+fn a_lesson_that_is_closed_gives_back_settings_and_colours() {
+    let (mut harness, _) = app(DESKTOP);
+    settle(&mut harness);
+    press_at(&mut harness, "Iterations", 0.2);
+    settle(&mut harness);
+    let settings = harness.state().state().settings.clone();
+    let options = harness.state().options();
+    menu(&mut harness, "What decimation keeps");
+    settle(&mut harness);
+    assert_ne!(harness.state().options(), options);
+    assert_ne!(harness.state().state().settings, settings, "the lesson has its own");
+    click(&mut harness, "Next");
+    settle(&mut harness);
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    assert!(harness.state().lessons().given().is_none());
+    assert_eq!((&harness.state().state().settings, harness.state().options()), (&settings, options));
+    assert!(notice(&harness).starts_with("Settings and colours are as they were before the lesson."));
+    // Who wants to keep those of the lesson goes a step back.
+    click(&mut harness, "Undo");
+    assert_ne!(harness.state().state().settings, settings);
+    click(&mut harness, "Redo");
+    settle(&mut harness);
+    assert_eq!(harness.state().state().settings, settings);
 }
 
 #[test]
