@@ -51,6 +51,11 @@ enum Before {
     Kept(u64, u64, u64, Keep),
 }
 
+/// The parts of a surface without levels, in the order of their upload.
+const POSITIONS: u8 = 0;
+const TRIANGLES: u8 = 1;
+const EDGES: u8 = 2;
+
 /// GPU memory and what stands in it.
 pub(super) struct Scene {
     device: wgpu::Device,
@@ -66,9 +71,11 @@ pub(super) struct Scene {
     scalars_of: Colours,
     has_scalars: bool,
     before_of: Option<Before>,
+    /// The part of a surface without levels that is uploaded next.
+    next_part: u8,
     left_out_of: Option<(u64, u64, Keep)>,
     normals: Vec<Vec3>,
-    views: [WindowTarget<(Picture, Revision, Keep)>; VIEWS],
+    views: [WindowTarget<(Picture, Revision, Keep, bool)>; VIEWS],
 }
 
 impl Scene {
@@ -90,6 +97,7 @@ impl Scene {
             scalars_of: Colours::None,
             has_scalars: false,
             before_of: None,
+            next_part: POSITIONS,
             left_out_of: None,
             normals: Vec::new(),
             views: [view(), view(), view(), view()],
@@ -110,7 +118,7 @@ impl Scene {
                 self.level.set_positions(&self.device, &self.queue, &[])?;
             }
             self.revision = new;
-            return Ok(());
+            return self.follow_whole(document);
         };
         let Some(shown) = &document.shown else { return Ok(()) };
         let levels_changed = is_other || old.levels != new.levels;
@@ -160,20 +168,35 @@ impl Scene {
     /// Uploads the surface as it was opened, or what is shown in its place: the pieces that are kept.
     fn follow_before(&mut self, document: &Document, keep: Keep) -> Result<(), SurfaceError> {
         let Revision { document: open, opened, averaged, .. } = document.revision;
-        let is_whole = document.levels.is_none();
-        let of = if is_whole {
-            Before::Whole(open, Arc::as_ptr(&document.opened).addr())
-        } else {
-            Before::Kept(open, opened, averaged, keep)
-        };
-        if self.before_of != Some(of) && (is_whole || !document.pieces.labels.is_empty()) {
-            if is_whole {
-                upload_in_haste(&self.device, &self.queue, &mut self.before, &document.opened)?;
-            } else {
-                upload(&self.device, &self.queue, &mut self.before, &document.before(keep))?;
-            }
+        let of = Before::Kept(open, opened, averaged, keep);
+        if document.levels.is_some() && self.before_of != Some(of) && !document.pieces.labels.is_empty() {
+            upload(&self.device, &self.queue, &mut self.before, &document.before(keep))?;
             self.before_of = Some(of);
         }
+        Ok(())
+    }
+
+    /// Uploads a surface that has no levels yet, a part in each frame, so that no frame waits however large it is: without
+    /// normals, so that each triangle is drawn with its own, and last the sides of triangles that go to a larger vertex, each of
+    /// which is an edge that no neighbour has as well where windings agree. Of open ends half of the edges are left out.
+    fn follow_whole(&mut self, document: &Document) -> Result<(), SurfaceError> {
+        let of = Before::Whole(document.revision.document, Arc::as_ptr(&document.opened).addr());
+        if self.before_of != Some(of) {
+            (self.before_of, self.next_part) = (Some(of), POSITIONS);
+        }
+        let TriMesh { positions, triangles } = &*document.opened;
+        let (device, queue) = (&self.device, &self.queue);
+        match self.next_part {
+            POSITIONS => self.before.set_positions(device, queue, positions)?,
+            TRIANGLES => self.before.set_level(device, queue, triangles, &[], &vec![Vec3::ZERO; positions.len()])?,
+            EDGES => {
+                let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+                let edges: Vec<[u32; 2]> = sides.filter(|[from, to]| from < to).collect();
+                self.before.set_edges(device, queue, &edges)?;
+            }
+            _ => return Ok(()),
+        }
+        self.next_part += 1;
         Ok(())
     }
 
@@ -207,8 +230,12 @@ impl Scene {
                 self.follow_left_out(document, keep)?;
             }
         }
+        // A part that adds nothing to this view is no reason to draw it again.
+        let wanted = if matches!(picture.look, Look::Shaded | Look::Flat) { TRIANGLES } else { EDGES };
+        let is_whole = picture.before && self.next_part > wanted;
         let view = &mut self.views[index];
-        let Some(target) = view.stale(&self.device, picture.size, (picture.clone(), self.revision, keep)) else {
+        let Some(target) = view.stale(&self.device, picture.size, (picture.clone(), self.revision, keep, is_whole))
+        else {
             return Ok(view.id());
         };
         let main = if picture.before { &self.before } else { &self.level };
@@ -285,21 +312,6 @@ pub(super) fn colour_map(document: &Document, colours: Colours) -> Option<Colour
 fn faint(style: &Style) -> Colour {
     let (a, b) = (style.background_bottom.0, style.line.0);
     Colour(std::array::from_fn(|i| ((u16::from(a[i]) * 5 + u16::from(b[i]) * 3) / 8) as u8))
-}
-
-/// Uploads a surface in the frame in which it arrives, however large it is: without normals, so that each triangle is drawn with
-/// its own, and with the sides of triangles that go to a larger vertex, each of which is an edge that no neighbour has as well
-/// where windings agree. Of open ends half of the edges are left out.
-fn upload_in_haste(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    surface: &mut GpuSurface,
-    mesh: &TriMesh,
-) -> Result<(), SurfaceError> {
-    surface.set_positions(device, queue, &mesh.positions)?;
-    let sides = mesh.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let edges: Vec<[u32; 2]> = sides.filter(|[from, to]| from < to).collect();
-    surface.set_level(device, queue, &mesh.triangles, &edges, &vec![Vec3::ZERO; mesh.positions.len()])
 }
 
 /// Uploads a surface with all of its triangles.
