@@ -51,11 +51,6 @@ enum Before {
     Kept(u64, u64, u64, Keep),
 }
 
-/// The parts of a surface without levels, in the order of their upload.
-const POSITIONS: u8 = 0;
-const TRIANGLES: u8 = 1;
-const EDGES: u8 = 2;
-
 /// GPU memory and what stands in it.
 pub(super) struct Scene {
     device: wgpu::Device,
@@ -71,8 +66,8 @@ pub(super) struct Scene {
     scalars_of: Colours,
     has_scalars: bool,
     before_of: Option<Before>,
-    /// The part of a surface without levels that is uploaded next.
-    next_part: u8,
+    /// Whether the positions of a surface without levels are in memory, and its triangles follow in the next frame.
+    triangles_follow: bool,
     left_out_of: Option<(u64, u64, Keep)>,
     normals: Vec<Vec3>,
     views: [WindowTarget<(Picture, Revision, Keep, bool)>; VIEWS],
@@ -97,7 +92,7 @@ impl Scene {
             scalars_of: Colours::None,
             has_scalars: false,
             before_of: None,
-            next_part: POSITIONS,
+            triangles_follow: false,
             left_out_of: None,
             normals: Vec::new(),
             views: [view(), view(), view(), view()],
@@ -176,27 +171,18 @@ impl Scene {
         Ok(())
     }
 
-    /// Uploads a surface that has no levels yet, a part in each frame, so that no frame waits however large it is: without
-    /// normals, so that each triangle is drawn with its own, and last the sides of triangles that go to a larger vertex, each of
-    /// which is an edge that no neighbour has as well where windings agree. Of open ends half of the edges are left out.
+    /// Uploads a surface that has no levels yet, in two frames, so that neither waits long however large it is: without
+    /// normals, so that each triangle is drawn with its own, and without edges.
     fn follow_whole(&mut self, document: &Document) -> Result<(), SurfaceError> {
         let of = Before::Whole(document.revision.document, Arc::as_ptr(&document.opened).addr());
-        if self.before_of != Some(of) {
-            (self.before_of, self.next_part) = (Some(of), POSITIONS);
-        }
         let TriMesh { positions, triangles } = &*document.opened;
-        let (device, queue) = (&self.device, &self.queue);
-        match self.next_part {
-            POSITIONS => self.before.set_positions(device, queue, positions)?,
-            TRIANGLES => self.before.set_level(device, queue, triangles, &[], &vec![Vec3::ZERO; positions.len()])?,
-            EDGES => {
-                let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-                let edges: Vec<[u32; 2]> = sides.filter(|[from, to]| from < to).collect();
-                self.before.set_edges(device, queue, &edges)?;
-            }
-            _ => return Ok(()),
+        if self.before_of != Some(of) {
+            self.before.set_positions(&self.device, &self.queue, positions)?;
+            (self.before_of, self.triangles_follow) = (Some(of), true);
+        } else if std::mem::take(&mut self.triangles_follow) {
+            let no_normals = vec![Vec3::ZERO; positions.len()];
+            self.before.set_level(&self.device, &self.queue, triangles, &[], &no_normals)?;
         }
-        self.next_part += 1;
         Ok(())
     }
 
@@ -230,16 +216,18 @@ impl Scene {
                 self.follow_left_out(document, keep)?;
             }
         }
-        // A part that adds nothing to this view is no reason to draw it again.
-        let wanted = if matches!(picture.look, Look::Shaded | Look::Flat) { TRIANGLES } else { EDGES };
-        let is_whole = picture.before && self.next_part > wanted;
+        let is_whole = picture.before && matches!(self.before_of, Some(Before::Whole(..)));
         let view = &mut self.views[index];
-        let Some(target) = view.stale(&self.device, picture.size, (picture.clone(), self.revision, keep, is_whole))
-        else {
+        let Some(target) = view.stale(
+            &self.device,
+            picture.size,
+            (picture.clone(), self.revision, keep, is_whole && !self.triangles_follow),
+        ) else {
             return Ok(view.id());
         };
         let main = if picture.before { &self.before } else { &self.level };
-        let look = picture.look;
+        // Lines follow with the level: of a surface as it comes from a scan they are one white area.
+        let look = if is_whole { Look::Shaded } else { picture.look };
         let main = Drawable { surface: main, look, tint: None };
         let left_out = Drawable { surface: &self.left_out, look, tint: Some(faint(&picture.style)) };
         let mut things: Vec<&dyn Draw> = vec![&Backdrop, &main];

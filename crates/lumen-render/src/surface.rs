@@ -77,35 +77,14 @@ impl GpuSurface {
         if normals.len() != self.nodes {
             return Err(SurfaceError::Count { what: "normals", expected: self.nodes, found: normals.len() });
         }
-        self.check_range(triangles.as_flattened())?;
-        self.check_range(edges.as_flattened())?;
+        for indices in [triangles.as_flattened(), edges.as_flattened()] {
+            if let Some(&index) = indices.iter().max().filter(|&&index| index as usize >= self.nodes) {
+                return Err(SurfaceError::IndexOutOfRange { index, nodes: self.nodes });
+            }
+        }
         self.normals.write(device, queue, bytemuck::cast_slice(normals))?;
         self.edges.write(device, queue, bytemuck::cast_slice(edges))?;
         self.triangles.write(device, queue, bytemuck::cast_slice(triangles))
-    }
-
-    /// Replaces the edges alone.
-    ///
-    /// # Errors
-    /// When an index is out of range, or the device does not allow a buffer of that size; there is no wireframe then.
-    pub fn set_edges(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        edges: &[[u32; 2]],
-    ) -> Result<(), SurfaceError> {
-        self.edges.clear();
-        self.check_range(edges.as_flattened())?;
-        self.edges.write(device, queue, bytemuck::cast_slice(edges))
-    }
-
-    fn check_range(&self, indices: &[u32]) -> Result<(), SurfaceError> {
-        match indices.iter().max() {
-            Some(&index) if index as usize >= self.nodes => {
-                Err(SurfaceError::IndexOutOfRange { index, nodes: self.nodes })
-            }
-            _ => Ok(()),
-        }
     }
 
     /// Gives each node a scalar in mm, for a style with a colour map to show, or takes them away.
