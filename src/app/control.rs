@@ -1,12 +1,12 @@
 //! A setting as rows of the panel: a slider, a typed value with its unit and a way back to its default; and how far work
 //! is.
 
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 use egui::{
     Align, ComboBox, Direction, DragValue, Key, Label, Layout, Modifiers, ProgressBar, RichText, Role, Slider, Ui, vec2,
 };
-use std::borrow::Cow;
 
 use super::assist::{describe, name};
 use super::icon::{self, Icon};

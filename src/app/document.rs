@@ -30,11 +30,7 @@ pub struct Pieces {
 impl Pieces {
     /// Whether `piece` is one of those that `keep` names.
     pub fn is_kept(&self, keep: Keep, piece: u32) -> bool {
-        match keep {
-            Keep::All => true,
-            Keep::Largest => self.by_size.first() == Some(&piece),
-            Keep::Component(_) | Keep::Pieces(_) => keep.numbers().contains(&piece),
-        }
+        keep.names(piece, self.by_size.first().copied())
     }
 
     /// The pieces that `keep` names.

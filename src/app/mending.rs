@@ -12,8 +12,8 @@ use super::row::{number, remark, row};
 use super::state::State;
 use crate::language::{Key, decimal, grouped, inner, tell, text};
 use crate::mesh::mending::{FaultCounts, FaultKind, FaultPlace, Mending};
+use crate::pipeline::settings::Settings;
 use crate::pipeline::settings::table::{self, Kind};
-use crate::pipeline::settings::{Keep, Settings};
 use crate::render::Camera;
 use crate::say;
 
@@ -57,9 +57,7 @@ fn is_faulty(counts: &FaultCounts) -> bool {
 
 /// Other settings; a piece that is kept by its number may be another one then, so the largest is.
 fn set(mut settings: Settings) -> Action {
-    if !settings.keep.numbers().is_empty() {
-        settings.keep = Keep::Largest;
-    }
+    settings.keep = settings.keep.without_numbers();
     Action::Set(Box::new(settings))
 }
 

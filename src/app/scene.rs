@@ -179,9 +179,10 @@ impl Scene {
         if self.before_of != Some(of) {
             self.before.set_positions(&self.device, &self.queue, positions)?;
             (self.before_of, self.triangles_follow) = (Some(of), true);
-        } else if std::mem::take(&mut self.triangles_follow) {
+        } else if self.triangles_follow {
             let no_normals = vec![Vec3::ZERO; positions.len()];
             self.before.set_level(&self.device, &self.queue, triangles, &[], &no_normals)?;
+            self.triangles_follow = false;
         }
         Ok(())
     }

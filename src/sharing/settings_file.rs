@@ -3,8 +3,7 @@
 //! Measures stand beside them, with what the surface is known by that they were made on.
 //!
 //! A field that Lumen does not know is refused, not left out: it was meant to change the result. A switch that is left
-//! out is off, a target that is left out is auto; everything else has to be there, so that the file says the same
-//! whatever a later version's defaults are.
+//! out is off; everything else has to be there, so that the file says the same whatever a later version's defaults are.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

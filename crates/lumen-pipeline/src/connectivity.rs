@@ -124,11 +124,8 @@ impl Connectivity {
     /// Whether each piece is of those that `keep` names; `None` where they are the whole surface.
     fn chosen(&self, keep: Keep) -> Result<Option<Vec<bool>>, SettingsError> {
         self.check(keep)?;
-        let largest = self.labels.largest().filter(|_| keep == Keep::Largest);
-        let mut is_kept = vec![keep == Keep::All; self.labels.count()];
-        for &piece in keep.numbers().iter().chain(&largest) {
-            is_kept[piece as usize] = true;
-        }
+        let largest = self.labels.largest();
+        let is_kept: Vec<bool> = (0..self.labels.count() as u32).map(|piece| keep.names(piece, largest)).collect();
         Ok(is_kept.contains(&false).then_some(is_kept))
     }
 

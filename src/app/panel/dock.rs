@@ -4,7 +4,7 @@
 use egui::{Align, Label, Layout, RichText, Ui};
 
 use super::reduce::{DEFAULT_BOUND, LARGEST_BOUND};
-use super::{entering, measured, set};
+use super::{come_to, entering, measured, set};
 use crate::app::action::Action;
 use crate::app::control::{self, Change, Form, Setting};
 use crate::app::row::{number, remark, row};
@@ -71,9 +71,7 @@ fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings, form: Form) {
             });
         }
         None => {
-            let is_auto = *target == Target::Auto;
-            let found = state.auto().filter(|_| is_auto);
-            let percent = found.map_or_else(|| target.percent(entering(state).unwrap_or(0)), |found| found.percent);
+            let percent = come_to(state, *target).percent(entering(state).unwrap_or(0));
             let safe = state.safe().and_then(|safe| safe.percent);
             target_row(ui, "reduction", percent, target, |row, ui, percent| row.show_docked(ui, percent, form, safe));
         }

@@ -15,7 +15,8 @@ use super::action::Action;
 use super::document::Document;
 use super::state::State;
 use crate::pipeline::report::Report;
-use crate::pipeline::settings::Settings;
+use crate::pipeline::settings::{Settings, Target};
+use crate::pipeline::verdict;
 
 /// Asks for `settings`, if they are others than those of `state`.
 fn set(settings: Settings, state: &State, asked: &mut Vec<Action>) {
@@ -32,4 +33,10 @@ fn measured(document: Option<&Document>) -> Option<&Report> {
 /// How many triangles enter the reduction.
 fn entering(state: &State) -> Option<usize> {
     Some(state.document.as_ref()?.levels.as_ref()?.1.triangles.len())
+}
+
+/// The target; where it is auto, the rate that it has come to, if that is known.
+fn come_to(state: &State, target: Target) -> Target {
+    let found = state.auto().filter(|_| target == Target::Auto);
+    found.map_or(target, |found| verdict::rate(found.percent))
 }

@@ -2,7 +2,7 @@
 
 use egui::{ComboBox, RichText, Role, Ui};
 
-use super::{entering, measured, set};
+use super::{come_to, entering, measured, set};
 use crate::app::action::Action;
 use crate::app::assist::name;
 use crate::app::control::{self, reads_comma};
@@ -15,7 +15,6 @@ use crate::language::{decimal, tell};
 use crate::pipeline::report::AutoReport;
 use crate::pipeline::settings::table;
 use crate::pipeline::settings::{Settings, Target, reduction_percent};
-use crate::pipeline::verdict;
 use crate::say;
 
 /// The bound that a reset goes back to: 0.1 mm.
@@ -116,8 +115,8 @@ fn auto(ui: &mut Ui, state: &State, target: &mut Target) {
     ui.checkbox(&mut is_auto, text)
         .on_hover_text(say!("panel-auto-help", tolerance = state.settings.tolerance_percent));
     if is_auto != was_auto {
-        let came_to = state.auto().map(|found| verdict::rate(found.percent));
-        *target = if is_auto { Target::Auto } else { came_to.unwrap_or_else(|| rate_shown(state)) };
+        let number = Some(come_to(state, *target)).filter(|target| *target != Target::Auto);
+        *target = if is_auto { Target::Auto } else { number.unwrap_or_else(|| rate_shown(state)) };
     }
 }
 
@@ -127,8 +126,7 @@ fn wanted(ui: &mut Ui, state: &State, target: &mut Target) {
     row(ui, &say!("panel-wanted"), &say!("panel-wanted-help"), |ui| {
         // The field shows what can be typed into it: left alone, it sets nothing.
         let most = entering.max(1);
-        let found = state.auto().filter(|_| *target == Target::Auto);
-        let wanted = found.map_or(*target, |found| verdict::rate(found.percent)).triangles(entering).clamp(1, most);
+        let wanted = come_to(state, *target).triangles(entering).clamp(1, most);
         let mut typed = wanted;
         let field = egui::DragValue::new(&mut typed).range(1..=most).speed(entering as f64 / 500.0);
         let response = ui.add(reads_comma(field, true).update_while_editing(false));

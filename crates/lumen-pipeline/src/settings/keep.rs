@@ -38,6 +38,21 @@ impl Keep {
             Self::Largest | Self::All => &[],
         }
     }
+
+    /// Whether it names this piece of a surface whose largest is `largest`.
+    pub fn names(&self, piece: u32, largest: Option<u32>) -> bool {
+        match self {
+            Self::All => true,
+            Self::Largest => largest == Some(piece),
+            Self::Component(_) | Self::Pieces(_) => self.numbers().contains(&piece),
+        }
+    }
+
+    /// The same of a surface whose pieces may be numbered otherwise: the largest in place of numbers.
+    #[must_use]
+    pub fn without_numbers(self) -> Self {
+        if self.numbers().is_empty() { self } else { Self::Largest }
+    }
 }
 
 impl fmt::Display for Keep {

@@ -35,7 +35,6 @@ pub struct Settings {
     /// How the reduction is made.
     pub decimation: Decimation,
     /// How far it goes.
-    #[serde(default)]
     pub target: Target,
     /// The change of its calibre in percent that a vessel is allowed, 0 to 100. Surfaces are judged by it; it changes none but
     /// that of [`Target::Auto`].
@@ -193,14 +192,16 @@ mod tests {
     }
 
     #[test]
-    fn settings_without_a_target_go_as_far_as_is_safe_and_those_with_a_number_as_far_as_it_says() {
+    fn a_target_is_auto_or_a_number_and_never_left_out() {
         let mut told = serde_json::to_value(Settings::default()).unwrap();
         assert_eq!(told["target"], "Auto");
-        let target = |told: &serde_json::Value| serde_json::from_value::<Settings>(told.clone()).unwrap().target;
+        let target =
+            |told: &serde_json::Value| serde_json::from_value::<Settings>(told.clone()).map(|read| read.target);
+        assert_eq!(target(&told).unwrap(), Target::Auto);
         told["target"] = serde_json::json!({ "Reduction": 900 });
-        assert_eq!(target(&told), Target::Reduction(900));
+        assert_eq!(target(&told).unwrap(), Target::Reduction(900));
         told.as_object_mut().unwrap().remove("target");
-        assert_eq!(target(&told), Target::Auto);
+        assert!(target(&told).unwrap_err().to_string().contains("target"));
     }
 
     #[test]

@@ -170,9 +170,7 @@ fn faults(known: &Known<'_>) -> Vec<Finding> {
         remedy(known, label, |settings| {
             settings.mending = mending;
             // A piece that is kept by its number may be another one then.
-            if !settings.keep.numbers().is_empty() {
-                settings.keep = Keep::Largest;
-            }
+            settings.keep = settings.keep.without_numbers();
         })
         .filter(|_| is_other)
     };
