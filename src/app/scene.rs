@@ -66,8 +66,8 @@ pub(super) struct Scene {
     scalars_of: Colours,
     has_scalars: bool,
     before_of: Option<Before>,
-    /// Whether the positions of a surface without levels are in memory, and its triangles follow in the next frame.
-    triangles_follow: bool,
+    /// How many bytes of a surface without levels are in memory, while more follow in the next frame.
+    uploaded: Option<usize>,
     left_out_of: Option<(u64, u64, Keep)>,
     normals: Vec<Vec3>,
     views: [WindowTarget<(Picture, Revision, Keep, bool)>; VIEWS],
@@ -92,7 +92,7 @@ impl Scene {
             scalars_of: Colours::None,
             has_scalars: false,
             before_of: None,
-            triangles_follow: false,
+            uploaded: None,
             left_out_of: None,
             normals: Vec::new(),
             views: [view(), view(), view(), view()],
@@ -171,18 +171,14 @@ impl Scene {
         Ok(())
     }
 
-    /// Uploads a surface that has no levels yet, in two frames, so that neither waits long however large it is: without
-    /// normals, so that each triangle is drawn with its own, and without edges.
+    /// Uploads a surface that has no levels yet, a part in each frame, so that none waits long however large it is.
     fn follow_whole(&mut self, document: &Document) -> Result<(), SurfaceError> {
         let of = Before::Whole(document.revision.document, Arc::as_ptr(&document.opened).addr());
-        let TriMesh { positions, triangles } = &*document.opened;
         if self.before_of != Some(of) {
-            self.before.set_positions(&self.device, &self.queue, positions)?;
-            (self.before_of, self.triangles_follow) = (Some(of), true);
-        } else if self.triangles_follow {
-            let no_normals = vec![Vec3::ZERO; positions.len()];
-            self.before.set_level(&self.device, &self.queue, triangles, &[], &no_normals)?;
-            self.triangles_follow = false;
+            // Its bytes arrived in this frame: the upload begins in the next.
+            (self.before_of, self.uploaded) = (Some(of), Some(0));
+        } else if let Some(from) = self.uploaded {
+            self.uploaded = self.before.upload_part(&self.device, &self.queue, &document.opened, from)?;
         }
         Ok(())
     }
@@ -222,7 +218,7 @@ impl Scene {
         let Some(target) = view.stale(
             &self.device,
             picture.size,
-            (picture.clone(), self.revision, keep, is_whole && !self.triangles_follow),
+            (picture.clone(), self.revision, keep, is_whole && self.uploaded.is_none()),
         ) else {
             return Ok(view.id());
         };

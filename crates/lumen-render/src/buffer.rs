@@ -1,6 +1,8 @@
 //! A GPU buffer that is written again and again, as while a slider is dragged: it is made anew only when it has to
 //! grow, and then by half again. And what is drawn from such buffers.
 
+use std::ops::Range;
+
 use super::error::SurfaceError;
 
 /// Sizes are multiples of this, so that small changes are no reason to grow.
@@ -34,6 +36,51 @@ impl GrowingBuffer {
         bytes: &[u8],
     ) -> Result<(), SurfaceError> {
         let needed = bytes.len() as u64;
+        if let Some(buffer) = self.reserve(device, needed)? {
+            queue.write_buffer(buffer, 0, bytes);
+        }
+        self.used = needed;
+        Ok(())
+    }
+
+    /// Writes the part `range` of `bytes`, both in multiples of four, which replace the contents once the last part is there:
+    /// nothing is in use before.
+    pub(super) fn write_part(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        bytes: &[u8],
+        range: Range<usize>,
+    ) -> Result<(), SurfaceError> {
+        self.used = 0;
+        if let Some(buffer) = self.reserve(device, bytes.len() as u64)? {
+            queue.write_buffer(buffer, range.start as u64, &bytes[range.clone()]);
+        }
+        if range.end == bytes.len() {
+            self.used = bytes.len() as u64;
+        }
+        Ok(())
+    }
+
+    /// Replaces the contents by `needed` bytes of zero, a multiple of four, of which none is uploaded.
+    pub(super) fn write_zeros(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        needed: u64,
+    ) -> Result<(), SurfaceError> {
+        let label = Some(self.label);
+        if let Some(buffer) = self.reserve(device, needed)? {
+            let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
+            encoder.clear_buffer(buffer, 0, Some(needed));
+            queue.submit([encoder.finish()]);
+        }
+        self.used = needed;
+        Ok(())
+    }
+
+    /// The buffer, made anew where it does not hold `needed` bytes; `None` where none are needed.
+    fn reserve(&mut self, device: &wgpu::Device, needed: u64) -> Result<Option<&wgpu::Buffer>, SurfaceError> {
         let limit = device.limits().max_buffer_size;
         if needed > limit {
             return Err(SurfaceError::TooLarge { what: self.label, bytes: needed, limit });
@@ -48,11 +95,7 @@ impl GrowingBuffer {
                 mapped_at_creation: false,
             }));
         }
-        if let (Some(buffer), true) = (&self.buffer, needed > 0) {
-            queue.write_buffer(buffer, 0, bytes);
-        }
-        self.used = needed;
-        Ok(())
+        Ok(self.buffer.as_ref().filter(|_| needed > 0))
     }
 
     /// Makes the buffer empty and keeps its memory.

@@ -8,6 +8,7 @@ use glam::Vec3;
 
 use super::buffer::GrowingBuffer;
 use super::error::SurfaceError;
+use lumen_mesh::TriMesh;
 
 /// Positions, normals, triangles, edges and perhaps scalars of one surface, in GPU memory.
 #[derive(Debug)]
@@ -50,9 +51,8 @@ impl GpuSurface {
         positions: &[Vec3],
     ) -> Result<(), SurfaceError> {
         self.nodes = 0;
-        for buffer in [&mut self.normals, &mut self.scalars, &mut self.triangles, &mut self.edges] {
-            buffer.clear();
-        }
+        self.clear_level();
+        self.scalars.clear();
         self.positions.write(device, queue, bytemuck::cast_slice(positions))?;
         self.nodes = positions.len();
         Ok(())
@@ -72,19 +72,66 @@ impl GpuSurface {
         edges: &[[u32; 2]],
         normals: &[Vec3],
     ) -> Result<(), SurfaceError> {
-        self.triangles.clear();
-        self.edges.clear();
+        self.clear_level();
         if normals.len() != self.nodes {
             return Err(SurfaceError::Count { what: "normals", expected: self.nodes, found: normals.len() });
         }
-        for indices in [triangles.as_flattened(), edges.as_flattened()] {
-            if let Some(&index) = indices.iter().max().filter(|&&index| index as usize >= self.nodes) {
-                return Err(SurfaceError::IndexOutOfRange { index, nodes: self.nodes });
-            }
-        }
+        self.check(triangles.as_flattened())?;
+        self.check(edges.as_flattened())?;
         self.normals.write(device, queue, bytemuck::cast_slice(normals))?;
         self.edges.write(device, queue, bytemuck::cast_slice(edges))?;
         self.triangles.write(device, queue, bytemuck::cast_slice(triangles))
+    }
+
+    /// Replaces the surface by `mesh`, each triangle in its own plane and without edges, a part with each call, so that
+    /// none takes long: of what is to be uploaded, `from` bytes are there, 0 with the first call. Gives how many are then, or
+    /// `None` once all are; nothing is drawn before.
+    ///
+    /// # Errors
+    /// When an index is out of range, or the device does not allow a buffer of that size; the surface is empty then.
+    pub fn upload_part(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        mesh: &TriMesh,
+        from: usize,
+    ) -> Result<Option<usize>, SurfaceError> {
+        /// Bytes of one part: about 8 ms where there is no graphics card.
+        const PART: usize = 2 << 20;
+        if from == 0 {
+            self.set_positions(device, queue, &[])?;
+            self.nodes = mesh.positions.len();
+            self.check(mesh.triangles.as_flattened()).inspect_err(|_| self.nodes = 0)?;
+            // A triangle whose corners have no normals is lit by that of its plane.
+            self.normals.write_zeros(device, queue, size_of_val(&*mesh.positions) as u64)?;
+        }
+        let (mut start, to) = (0, from + PART);
+        for (buffer, bytes) in [
+            (&mut self.positions, bytemuck::cast_slice(&mesh.positions)),
+            (&mut self.triangles, bytemuck::cast_slice(&mesh.triangles)),
+        ] {
+            let within = |at: usize| at.saturating_sub(start).min(bytes.len());
+            let part = within(from)..within(to);
+            if !part.is_empty() {
+                buffer.write_part(device, queue, bytes, part)?;
+            }
+            start += bytes.len();
+        }
+        Ok((to < start).then_some(to))
+    }
+
+    fn check(&self, indices: &[u32]) -> Result<(), SurfaceError> {
+        match indices.iter().max().filter(|&&index| index as usize >= self.nodes) {
+            Some(&index) => Err(SurfaceError::IndexOutOfRange { index, nodes: self.nodes }),
+            None => Ok(()),
+        }
+    }
+
+    /// Nothing is drawn until the next level.
+    fn clear_level(&mut self) {
+        for buffer in [&mut self.triangles, &mut self.edges, &mut self.normals] {
+            buffer.clear();
+        }
     }
 
     /// Gives each node a scalar in mm, for a style with a colour map to show, or takes them away.

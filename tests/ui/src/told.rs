@@ -15,7 +15,7 @@ use lumen::trial::summary::Summary;
 use lumen_message::Told;
 
 pub use crate::{DESKTOP, PHONE, says};
-use crate::{Memory, app, settle};
+use crate::{Memory, app, settle, settle_wholly};
 
 /// The app under test.
 pub type App = Harness<'static, LumenApp>;
@@ -180,13 +180,14 @@ pub fn retarget(harness: &mut App) {
 /// When it does not start.
 pub fn on(size: [f32; 2]) -> (App, Rc<RefCell<Memory>>) {
     let (mut harness, memory) = app(size);
-    settle(&mut harness);
     put_on(&mut harness, &memory);
     (harness, memory)
 }
 
-/// Starts the first trial, and tells that its wire is under way.
+/// Starts the first trial, in the level that auto has come to (with one that follows *Restart* would take that), and tells
+/// that its wire is under way.
 pub fn put_on(harness: &mut App, memory: &Rc<RefCell<Memory>>) {
+    settle_wholly(harness);
     start(harness);
     assert_eq!(id_of_start(&asked(memory)), FIRST);
     tell(harness, memory, [ready(FIRST), now(FIRST, at_entry()), now(FIRST, frame())]);

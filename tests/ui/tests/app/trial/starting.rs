@@ -137,10 +137,10 @@ fn of_two_starts_the_first_goes_on_where_the_second_is_refused() {
 #[test]
 fn a_level_that_is_no_longer_wanted_is_not_awaited() {
     let (mut harness, memory) = app(DESKTOP);
-    settle(&mut harness);
     as_the_paper(&mut harness);
     put_on(&mut harness, &memory);
     press(&mut harness, "Restart");
+    assert!(matches!(asked(&memory)[..], [TrialCommand::Restart { .. }]));
     retarget(&mut harness);
     let id = id_of_start(&asked(&memory));
     tell(&mut harness, &memory, [refused(id, "The lumen is too thin.", true)]);
