@@ -18,6 +18,10 @@ pub enum Action {
     Uninvite,
     /// Choose a file to open whose numbers are in this unit.
     OpenIn(Unit),
+    /// Open the next of the files that came together.
+    OpenNext,
+    /// Take away what is told.
+    TakeAway,
     /// Open the file that is shown again, with its numbers in this unit.
     ReadIn(Unit),
     /// Open a sample.

@@ -12,6 +12,7 @@ use super::control::progress;
 use super::icon::{self, Icon};
 use super::menus::{long_menu, menu};
 use super::mode::{Entry, Group, Mode};
+use super::notices::{Kind, Notice};
 use super::options::{Colours, ViewOptions};
 use super::row::unbroken;
 use super::sides::side_label;
@@ -328,19 +329,30 @@ fn standing(state: &State, views: &Views) -> Vec<RichText> {
 
 /// The notice for a bar below of so many points, in as many lines as it takes beside what stands at the right.
 pub(super) fn notice(ui: &Ui, state: &State, views: &Views, is_narrow: bool, width: f32) -> Option<Arc<Galley>> {
-    let notice = state.notice.as_ref()?;
-    let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
+    let notice = state.notices.newest()?;
+    let colour = if notice.kind == Kind::Wrong { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
+    let said = notice.said();
     let lay_out = |width: f32| {
-        let mut job = LayoutJob::simple(notice.text.clone(), TextStyle::Body.resolve(ui.style()), colour, width);
+        let mut job = LayoutJob::simple(said.clone(), TextStyle::Body.resolve(ui.style()), colour, width);
         job.wrap.max_rows = MAX_LINES;
         ui.fonts_mut(|fonts| fonts.layout_job(job))
     };
+    let space = ui.spacing().item_spacing.x;
+    let mut width = width;
+    if notice.stands() {
+        width -= theme::row(ui.ctx(), 20.0) + space;
+    }
+    if notice.kind == Kind::OffersNext {
+        let label = WidgetText::from(say!("app-open-next"));
+        let label = label.into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Button);
+        width -= label.size().x + 2.0 * ui.spacing().button_padding.x + space;
+    }
     let told = lay_out(width);
     if is_narrow {
         return Some(told);
     }
     // Each with a line before it, and room around that.
-    let gap = 6.0 + 2.0 * ui.spacing().item_spacing.x;
+    let gap = 6.0 + 2.0 * space;
     let right = standing(state, views).into_iter().map(|text| {
         WidgetText::from(text).into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Body).size().x
             + gap
@@ -380,10 +392,21 @@ pub(super) fn status(
         } else if let Some(notice) = notice {
             let response = ui.label(notice.clone());
             name(&response, Role::Label, notice.text());
+            let told = state.notices.newest();
+            if told.is_some_and(|told| told.kind == Kind::OffersNext)
+                && ui.button(say!("app-open-next")).on_hover_text(say!("app-open-next-help")).clicked()
+            {
+                asked.push(Action::OpenNext);
+            }
+            if told.is_some_and(Notice::stands)
+                && icon::button(ui, Icon::Close, true, &say!("app-take-away"), &say!("app-take-away-help")).clicked()
+            {
+                asked.push(Action::TakeAway);
+            }
         } else if let Some(document) = &state.document {
             ui.label(RichText::new(document.title()).weak());
         }
-        if !is_narrow || state.told_work().is_none() && state.notice.is_none() {
+        if !is_narrow || state.told_work().is_none() && state.notices.newest().is_none() {
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let standing = standing(state, views);
                 // A phone has room for the count alone.

@@ -71,6 +71,7 @@ pub mod measure;
 mod mending;
 mod menus;
 mod mode;
+mod notices;
 mod numbers;
 mod options;
 mod overlay;
@@ -107,6 +108,7 @@ mod window_texture;
 pub use self::action::Action;
 pub use self::lasting::{LastingApp, OnEnd, Restarts};
 pub use self::lumen_app::LumenApp;
+pub use self::notices::{Kind as NoticeKind, Notice, Notices};
 pub use self::options::{Colours, FaultShown, ViewOptions};
 pub use self::platform::{
     Devices, Engines, FOLLOW_S, Files, Gamepad, Hands, Languages, Listing, OTHER_ENDINGS, Offer, Platform,
@@ -116,7 +118,7 @@ pub use self::platform::{
 pub use self::portrait::report_pictures;
 pub use self::reveal::Reveal;
 pub use self::sheets::Sheet;
-pub use self::state::{Effect, Notice, State, Step};
+pub use self::state::{Effect, State, Step};
 pub use self::views::Views;
 
 use self::filling::Filling;

@@ -257,7 +257,7 @@ impl Recovery {
                 } else {
                     say!("app-file-before", name = name)
                 };
-                state.tell(&text);
+                state.ask(&text);
                 self.returning = Some(returning);
             }
             _ => {}

@@ -143,7 +143,7 @@ impl Sharing {
 }
 
 fn ask_for(digits: ShortDigest, state: &mut State) {
-    state.tell(&say!("app-link-needs-file", digits = digits.to_string()));
+    state.ask(&say!("app-link-needs-file", digits = digits.to_string()));
 }
 
 /// The settings in force.

@@ -4,6 +4,7 @@ use egui::accesskit::{Live, Role};
 use egui::{Rect, Sense, Ui, Vec2};
 
 use super::document::Document;
+use super::notices::Kind;
 use super::state::State;
 use super::verdict;
 use crate::io::Axes;
@@ -54,8 +55,8 @@ pub(super) fn view(document: &Document, keep: Keep, camera: &Camera, shows_befor
 
 /// What is to be heard of what goes on: no number that changes with every frame.
 fn news(state: &State) -> (String, bool) {
-    if let Some(notice) = &state.notice {
-        return (notice.text.clone(), notice.is_error);
+    if let Some(notice) = state.notices.newest() {
+        return (notice.said(), notice.kind == Kind::Wrong);
     }
     if let Some((work, _)) = state.work {
         return (work.label(), false);

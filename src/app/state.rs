@@ -14,6 +14,7 @@ use std::sync::Arc;
 use super::compare::comparison::Comparison;
 use super::document::{Document, Revision};
 use super::history::History;
+use super::notices::{Kind, Notices};
 use crate::engine::{Calibre, Command, Link, Source, Work};
 use crate::io::{Axes, Unit};
 use crate::pipeline::paper;
@@ -21,15 +22,6 @@ use crate::pipeline::report::AutoReport;
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::{Boundary, Keep, Settings, Target};
 use crate::sharing::measures::Measure;
-
-/// A sentence for the user.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Notice {
-    /// The sentence.
-    pub text: String,
-    /// Whether something went wrong.
-    pub is_error: bool,
-}
 
 /// What undo goes back to.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,8 +61,8 @@ pub struct State {
     before: Option<Box<Before>>,
     /// What the engine is doing, and the part that is done, 0 to 1.
     pub work: Option<(Work, f32)>,
-    /// The last thing that the user should know.
-    pub notice: Option<Notice>,
+    /// What the user should know.
+    pub notices: Notices,
     /// The unit that was chosen for the next file, if one was.
     pub next_unit: Option<Unit>,
     /// How many triangles samples are opened with, where that is not for them to say; what they cannot have is brought to
@@ -168,7 +160,7 @@ impl Default for State {
             opening: Vec::new(),
             before: None,
             work: None,
-            notice: None,
+            notices: Notices::default(),
             next_unit: None,
             written_axes: None,
             generation: 0,
@@ -201,7 +193,7 @@ impl State {
 
     /// The work to tell of, and how far it is: a notice is hidden by what is waited for alone.
     pub fn told_work(&self) -> Option<(Work, f32)> {
-        self.work.filter(|_| self.notice.is_none() || self.awaits())
+        self.work.filter(|_| self.notices.newest().is_none() || self.awaits())
     }
 
     /// Whether what is not known yet of the surface that is open is on its way.
@@ -384,11 +376,16 @@ impl State {
 
     /// Tells the user something.
     pub fn tell(&mut self, text: &str) {
-        self.notice = Some(Notice { text: text.to_owned(), is_error: false });
+        self.notices.tell(Kind::Done, text);
+    }
+
+    /// Asks the user to do something.
+    pub fn ask(&mut self, text: &str) {
+        self.notices.tell(Kind::Asks, text);
     }
 
     /// Tells the user that something went wrong.
     pub fn warn(&mut self, text: &str) {
-        self.notice = Some(Notice { text: text.to_owned(), is_error: true });
+        self.notices.tell(Kind::Wrong, text);
     }
 }

@@ -5,6 +5,7 @@ use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::Sender;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use rfd::FileDialog;
@@ -15,8 +16,45 @@ use crate::app::{OTHER_ENDINGS, Offer, PlatformEvent, Waker};
 use crate::io::Format;
 use crate::say;
 
+/// The files that came with the one that was read last.
+#[derive(Clone, Default)]
+pub(super) struct Next(Arc<Mutex<Vec<PathBuf>>>);
+
+impl Next {
+    /// Takes them, in their order.
+    pub(super) fn take(&self) -> Vec<PathBuf> {
+        std::mem::take(&mut self.known())
+    }
+
+    fn known(&self) -> MutexGuard<'_, Vec<PathBuf>> {
+        // A list of paths is whole at any time.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Where files are read from, and who is told.
+pub(super) struct Reader {
+    pub(super) disk: Disk,
+    pub(super) next: Next,
+    pub(super) events: Sender<PlatformEvent>,
+    pub(super) waker: Waker,
+}
+
+impl Reader {
+    fn read(&self, paths: &[PathBuf]) {
+        let (event, rest) = load(paths, &self.disk);
+        send(&self.events, &self.waker, event);
+        let name = |path: &PathBuf| path.file_name().unwrap_or_default().display().to_string();
+        let names: Vec<String> = rest.iter().map(name).collect();
+        *self.next.known() = rest;
+        if !names.is_empty() {
+            send(&self.events, &self.waker, PlatformEvent::More { names });
+        }
+    }
+}
+
 /// Lets the user choose files and reads them.
-pub(super) fn choose(disk: Disk, events: Sender<PlatformEvent>, waker: Waker) {
+pub(super) fn choose(reader: Reader) {
     thread::spawn(move || {
         speech::follow();
         let extensions: Vec<&str> = Format::opened().chain(scans::ENDINGS).chain(OTHER_ENDINGS).collect();
@@ -24,34 +62,40 @@ pub(super) fn choose(disk: Disk, events: Sender<PlatformEvent>, waker: Waker) {
             .add_filter(say!("app-dialog-opened"), &extensions)
             .add_filter(say!("app-dialog-all"), &["*"]);
         if let Some(paths) = dialog.pick_files() {
-            send(&events, &waker, load(&paths, &disk));
+            reader.read(&paths);
         }
     });
 }
 
 /// Reads a file, or the scan in several or in a folder.
-pub(super) fn read(paths: Vec<PathBuf>, disk: Disk, events: Sender<PlatformEvent>, waker: Waker) {
+pub(super) fn read(paths: Vec<PathBuf>, reader: Reader) {
     thread::spawn(move || {
         speech::follow();
-        send(&events, &waker, load(&paths, &disk));
+        reader.read(&paths);
     });
 }
 
-/// Finds the scan in some files, or reads the first of them.
-fn load(paths: &[PathBuf], disk: &Disk) -> PlatformEvent {
+/// Finds the scan in some files, or reads the first of them; what of them is left for later.
+fn load(paths: &[PathBuf], disk: &Disk) -> (PlatformEvent, Vec<PathBuf>) {
     // The files of a series often have no ending at all.
     let is_surface = |path: &PathBuf| Format::from_name(&path.to_string_lossy()).is_some();
-    if paths.len() > 1 && paths.iter().any(is_surface) {
-        return PlatformEvent::Failed { message: say!("app-one-at-a-time") };
+    let surface = paths.iter().position(is_surface).filter(|_| paths.len() > 1);
+    if surface.is_none() {
+        match disk.files(paths) {
+            Ok(Some(files)) => return (PlatformEvent::Scan { files }, Vec::new()),
+            Ok(None) => {}
+            Err(message) => return (PlatformEvent::Failed { message }, Vec::new()),
+        }
     }
-    match disk.files(paths) {
-        Ok(Some(files)) => return PlatformEvent::Scan { files },
-        Ok(None) => {}
-        Err(message) => return PlatformEvent::Failed { message },
+    let mut rest = paths.to_vec();
+    if rest.is_empty() {
+        return (PlatformEvent::Failed { message: say!("app-no-file") }, rest);
     }
-    let Some(path) = paths.first() else {
-        return PlatformEvent::Failed { message: say!("app-no-file") };
-    };
+    let first = rest.remove(surface.unwrap_or(0));
+    (load_one(&first), rest)
+}
+
+fn load_one(path: &Path) -> PlatformEvent {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     match fs::read(path) {
         Ok(bytes) => PlatformEvent::Chosen { name, bytes },
@@ -161,9 +205,15 @@ mod tests {
     }
 
     #[test]
-    fn several_surfaces_are_not_taken_for_a_scan() {
-        let paths = ["a.stl", "b.VTP"].map(PathBuf::from);
-        assert_eq!(message(load(&paths, &Disk::default())), "Open one surface at a time.");
+    fn of_several_surfaces_the_first_is_opened_and_the_others_follow() {
+        let path = |name: &str| PathBuf::from(format!("{}/shared/{name}", "nowhere"));
+        let paths = ["notes.txt", "a.stl", "b.VTP"].map(path);
+        let (first, rest) = load(&paths, &Disk::default());
+        assert!(message(first).starts_with("a.stl could not be read"), "a surface is no file of a scan");
+        assert_eq!(rest, ["notes.txt", "b.VTP"].map(path));
+        let (second, rest) = load(&rest, &Disk::default());
+        assert!(message(second).starts_with("b.VTP could not be read"));
+        assert_eq!(rest, ["notes.txt"].map(path));
     }
 
     #[test]

@@ -37,6 +37,7 @@ pub struct Desktop {
     sound: sound::Sound,
     sender: Sender<PlatformEvent>,
     events: Receiver<PlatformEvent>,
+    next: files::Next,
     waker: Waker,
 }
 
@@ -51,7 +52,16 @@ impl Desktop {
         let trial = ThreadLink::new(waker.clone(), move || TrialEngine::with_hand(hand.clone()));
         let scans = scans::Line::new(waker.clone());
         let (devices, sound) = (haptics::HapticDevices::new(exchange), sound::Sound::new());
-        Self { link, trial, scans, devices, sound, sender, events, waker }
+        Self { link, trial, scans, devices, sound, sender, events, next: files::Next::default(), waker }
+    }
+
+    fn reader(&self) -> files::Reader {
+        files::Reader {
+            disk: self.scans.disk(),
+            next: self.next.clone(),
+            events: self.sender.clone(),
+            waker: self.waker.clone(),
+        }
     }
 }
 
@@ -81,12 +91,16 @@ impl Engines for Desktop {
 
 impl Files for Desktop {
     fn choose_file(&mut self, _: &egui::Context) {
-        files::choose(self.scans.disk(), self.sender.clone(), self.waker.clone());
+        files::choose(self.reader());
     }
 
     fn read_dropped(&mut self, files: Vec<egui::DroppedFileHandle>, _: &egui::Context) {
         let paths = files.iter().map(|file| file.path().to_owned()).collect();
-        files::read(paths, self.scans.disk(), self.sender.clone(), self.waker.clone());
+        files::read(paths, self.reader());
+    }
+
+    fn open_next(&mut self) {
+        files::read(self.next.take(), self.reader());
     }
 
     fn offer_file(&mut self, name: &str, bytes: Vec<u8>, _: &egui::Context) {

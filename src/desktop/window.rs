@@ -81,8 +81,7 @@ fn show(
             None => {
                 let platform = Desktop::new(&cc.egui_ctx);
                 if let Some(path) = file {
-                    let disk = platform.scans.disk();
-                    files::read(vec![path.to_owned()], disk, platform.sender.clone(), platform.waker.clone());
+                    files::read(vec![path.to_owned()], platform.reader());
                 }
                 LastingApp::new(LumenApp::new(&cc.egui_ctx, device, Box::new(platform)))
             }

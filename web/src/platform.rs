@@ -41,6 +41,8 @@ pub(crate) struct Browser {
     /// Whether those of all languages have been asked for.
     has_asked_for_texts: bool,
     inbox: Inbox,
+    /// What came with the file that was opened last.
+    next: Vec<File>,
     waker: Waker,
 }
 
@@ -49,6 +51,12 @@ type Inbox = Rc<RefCell<VecDeque<News>>>;
 /// What has happened.
 enum News {
     Event(PlatformEvent),
+    /// A file was chosen or dropped, perhaps with others.
+    File {
+        name: String,
+        bytes: Vec<u8>,
+        rest: Vec<File>,
+    },
     /// The files of a scan were chosen or dropped.
     Scan(Vec<File>),
 }
@@ -70,6 +78,7 @@ impl Browser {
             texts: AllTexts::default(),
             has_asked_for_texts: false,
             inbox: Inbox::default(),
+            next: Vec::new(),
             waker,
         };
         hear_links(browser.news());
@@ -108,9 +117,11 @@ struct Gathered {
 }
 
 impl Gathered {
-    /// The scan in them, or the bytes of the first.
-    async fn news(self) -> Result<News, String> {
-        let Some(first) = self.files.first() else { return Err(say!("scan-folder-empty")) };
+    /// The scan in them, or the bytes of the first surface.
+    async fn news(mut self) -> Result<News, String> {
+        if self.files.is_empty() {
+            return Err(say!("scan-folder-empty"));
+        }
         let mut is_scan = self.is_folder;
         for file in &self.files {
             if is_scan {
@@ -121,7 +132,9 @@ impl Gathered {
         if is_scan {
             return Ok(News::Scan(self.files));
         }
-        Ok(News::Event(PlatformEvent::Chosen { name: first.name(), bytes: files::read(first).await? }))
+        let surface = self.files.iter().position(|file| Format::from_name(&file.name()).is_some());
+        let first = self.files.remove(surface.unwrap_or(0));
+        Ok(News::File { name: first.name(), bytes: files::read(&first).await?, rest: self.files })
     }
 }
 
@@ -186,6 +199,14 @@ impl Platform for Browser {
         let news = self.inbox.borrow_mut().pop_front()?;
         Some(match news {
             News::Event(event) => event,
+            News::File { name, bytes, rest } => {
+                let names: Vec<String> = rest.iter().map(File::name).collect();
+                self.next = rest;
+                if !names.is_empty() {
+                    self.inbox.borrow_mut().push_front(News::Event(PlatformEvent::More { names }));
+                }
+                PlatformEvent::Chosen { name, bytes }
+            }
             News::Scan(files) => PlatformEvent::Scan { files: self.scans.hand_over(&files) },
         })
     }
@@ -229,6 +250,11 @@ impl Files for Browser {
             };
             Ok(Gathered { files, is_folder })
         });
+    }
+
+    fn open_next(&mut self) {
+        let files = std::mem::take(&mut self.next);
+        take(&self.inbox, &self.waker, async move { Ok(Gathered { files, is_folder: false }) });
     }
 
     fn offer_file(&mut self, name: &str, bytes: Vec<u8>, _: &egui::Context) {

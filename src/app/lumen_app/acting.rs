@@ -120,6 +120,11 @@ impl LumenApp {
         let keep = self.state.settings.keep;
         let state = &mut self.state;
         match action {
+            Action::OpenNext => {
+                state.notices.take_away();
+                self.platform.open_next();
+            }
+            Action::TakeAway => state.notices.take_away(),
             Action::Open | Action::OpenIn(_) => {
                 state.next_unit = if let Action::OpenIn(unit) = action { Some(unit) } else { None };
                 self.platform.choose_file(ctx);

@@ -2,6 +2,7 @@
 
 use super::{LISTEN, LumenApp};
 use crate::app::action::Action;
+use crate::app::notices::Kind;
 use crate::app::platform::PlatformEvent;
 use crate::app::scan::{self, Told};
 use crate::app::sharing::{self, Sharing};
@@ -38,6 +39,12 @@ impl LumenApp {
                     self.state.open_file(name, bytes, self.platform.link());
                     if let Some(warning) = warning {
                         self.state.tell(&warning);
+                    }
+                }
+                PlatformEvent::More { names } => {
+                    if let Some((next, rest)) = names.split_first() {
+                        let text = say!("app-others", next = next, rest = rest.len());
+                        self.state.notices.tell(Kind::OffersNext, &text);
                     }
                 }
                 PlatformEvent::Linked { fragment } => {

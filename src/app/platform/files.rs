@@ -11,6 +11,10 @@ pub trait Files {
     /// Starts to read the files that were dropped on the window, at least one: a scan may stand in several.
     fn read_dropped(&mut self, files: Vec<egui::DroppedFileHandle>, ctx: &egui::Context);
 
+    /// Starts to read the files that came with the last ([`PlatformEvent::More`](super::PlatformEvent::More)), as if they had
+    /// been dropped.
+    fn open_next(&mut self);
+
     /// Gives the user a file: a save dialog or a download.
     fn offer_file(&mut self, name: &str, bytes: Vec<u8>, ctx: &egui::Context);
 

@@ -79,6 +79,11 @@ pub enum PlatformEvent {
         /// Its bytes.
         bytes: Vec<u8>,
     },
+    /// These came with the file that was chosen or dropped: [`Files::open_next`] reads them.
+    More {
+        /// Their names, at least one.
+        names: Vec<String>,
+    },
     /// A link was followed.
     Linked {
         /// What stands behind `#` in it.

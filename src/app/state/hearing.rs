@@ -95,9 +95,7 @@ impl State {
                         document.show_found();
                     }
                 }
-                if let Some(percent) = went_back
-                    && self.notice.as_ref().is_none_or(|notice| !notice.is_error)
-                {
+                if let Some(percent) = went_back {
                     self.tell(&say!("app-gone-back", percent = decimal(percent, 1)));
                 }
             }

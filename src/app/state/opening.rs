@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::{Before, Effect, Engine, Notice, Opening, State};
+use super::{Before, Effect, Engine, Opening, State};
 use crate::app::document::Document;
 use crate::engine::{Command, Link, Opened, Source, Work};
 use crate::io::{ImportOptions, Unit};
@@ -36,7 +36,7 @@ impl State {
         link.send(Command::Open { id, source: source.clone(), settings: settings.clone() });
         self.opening.push(Opening { id, source, settings });
         self.work = Some((Work::Reading, 0.0));
-        self.notice = None;
+        self.notices.clear();
     }
 
     /// Opens the file that is shown again, with its numbers in `unit`, or for `None` in that of its format. Samples have
@@ -95,10 +95,8 @@ impl State {
         // What was moved meanwhile follows.
         self.sent = settings;
         self.is_cancelling = false;
-        // That another file could not be opened meanwhile is not to be lost.
-        if self.notice.as_ref().is_none_or(|notice| !notice.is_error) {
-            let warning = document.import.warnings.first();
-            self.notice = warning.map(|warning| Notice { text: tell(warning), is_error: false });
+        if let Some(warning) = document.import.warnings.first() {
+            self.tell(&tell(warning));
         }
         self.shows_averaged = false;
         self.document = Some(document);

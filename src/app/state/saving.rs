@@ -38,7 +38,7 @@ impl State {
     pub(in crate::app) fn ask_for_file(&mut self, name: &str, command: Command, link: &mut dyn Link) {
         // An engine that has stopped too often with the surface open can still make a file.
         self.wake(link);
-        self.notice = None;
+        self.notices.clear();
         self.writing.push(name.to_owned());
         link.send(command);
     }

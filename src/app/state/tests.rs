@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use super::{Effect, State};
+use crate::app::notices::Kind;
 use crate::engine::{Command, Engine, Event, Link, Source, Work};
 use crate::io::Format;
 use crate::phantom::{self, Sample};
@@ -167,7 +168,7 @@ fn a_surface_that_is_given_up_before_it_has_a_level_gives_way_to_the_one_before(
         }
         let effect = if ends { state.cancel(&mut line) } else { state.engine_failed("x", &mut line) };
         assert_eq!(effect, Some(Effect::Opened));
-        let notice = &state.notice.as_ref().unwrap().text;
+        let notice = &state.notices.newest().unwrap().text;
         assert!(notice.contains(if ends { "cancelled" } else { "c.stl" }), "{notice}");
         assert_eq!((state.document.as_ref().unwrap().name.as_str(), shown(&state)), ("z.stl", before));
         assert_eq!(state.settings.keep, Keep::Component(1));
@@ -239,7 +240,7 @@ fn a_notice_gives_way_to_work_that_is_waited_for_and_not_to_numbers_that_follow(
     }
     state.work = Some((Work::Reading, 0.5));
     assert_eq!(state.told_work(), state.work);
-    state.notice = None;
+    state.notices.clear();
     state.work = Some((Work::Stage(Stage::Measures), 0.5));
     assert_eq!(state.told_work(), state.work);
 }
@@ -353,7 +354,9 @@ fn a_broken_file_opened_with_the_first_surface_is_not_passed_over() {
     state.open_file("b.stl".into(), vec![1, 2, 3], &mut line);
     settle(&mut state, &mut line);
     agrees(&state);
-    assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error && notice.text.starts_with("b.stl: ")));
+    assert!(
+        state.notices.newest().is_some_and(|notice| notice.kind == Kind::Wrong && notice.text.starts_with("b.stl: "))
+    );
 }
 
 #[test]

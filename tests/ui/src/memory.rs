@@ -77,6 +77,8 @@ pub(crate) struct MemoryPlatform {
     has_advanced: bool,
     trial: MemoryTrial,
     scans: MemoryScans,
+    /// What was dropped with the file that was opened.
+    next: Vec<egui::DroppedFileHandle>,
     memory: Rc<RefCell<Memory>>,
 }
 
@@ -239,13 +241,24 @@ impl Files for MemoryPlatform {
     }
 
     fn read_dropped(&mut self, files: Vec<egui::DroppedFileHandle>, _: &egui::Context) {
-        let Some(file) = files.first() else { return };
+        let Some((file, rest)) = files.split_first() else { return };
         let name = file.path().display().to_string();
         let event = match file.bytes() {
             Ok(bytes) => PlatformEvent::Chosen { name, bytes },
             Err(message) => PlatformEvent::Failed { message },
         };
-        self.memory.borrow_mut().events.push_back(event);
+        let names: Vec<String> = rest.iter().map(|file| file.path().display().to_string()).collect();
+        self.next = rest.to_vec();
+        let mut memory = self.memory.borrow_mut();
+        memory.events.push_back(event);
+        if !names.is_empty() {
+            memory.events.push_back(PlatformEvent::More { names });
+        }
+    }
+
+    fn open_next(&mut self) {
+        let files = std::mem::take(&mut self.next);
+        self.read_dropped(files, &egui::Context::default());
     }
 
     fn offer_file(&mut self, name: &str, bytes: Vec<u8>, _: &egui::Context) {
@@ -324,6 +337,8 @@ pub(crate) fn platform() -> (MemoryPlatform, Rc<RefCell<Memory>>) {
     let memory = Rc::new(RefCell::new(memory));
     let trial = MemoryTrial { engine: TrialEngine::new(), now_s: 0.0, has_advanced: false, memory: memory.clone() };
     let scans = MemoryScans::default();
-    let platform = MemoryPlatform { engine: Engine::new(), has_advanced: false, trial, scans, memory: memory.clone() };
+    let engine = Engine::new();
+    let platform =
+        MemoryPlatform { engine, has_advanced: false, trial, scans, next: Vec::new(), memory: memory.clone() };
     (platform, memory)
 }

@@ -227,6 +227,16 @@ app-not-opened-again = Die Oberfläche konnte nicht wieder geöffnet werden.
 app-opening-cancelled = Das Öffnen wurde abgebrochen.
 app-opening-cancelled-kept = Das Öffnen wurde abgebrochen; was geöffnet war, ist es noch.
 # $percent: less than 90.
+app-told-again = { $text } ({ $count }-mal)
+app-open-next = Nächste öffnen
+app-open-next-help = Die nächste der Dateien öffnen, die zusammen kamen, an Stelle dieser
+app-take-away = Schließen
+app-take-away-help = Diese Meldung wegnehmen
+app-others = { $rest ->
+    [0] { $next } kam mit.
+    [1] { $next } und eine weitere kamen mit.
+   *[other] { $next } und { $rest } weitere kamen mit.
+}
 app-gone-back = Um { $percent } % reduziert: mehr wäre nicht sicher.
 app-scan-cancelled = Abgebrochen; der Scan wurde nicht geöffnet.
 
@@ -328,7 +338,6 @@ app-forgotten = Alles, was auf diesem Gerät behalten wurde, ist vergessen: Eins
 
 app-dialog-opened = Oberflächen, Scans, Protokolle und Einstellungen
 app-dialog-all = Alle Dateien
-app-one-at-a-time = Bitte nur eine Oberfläche auf einmal öffnen.
 app-no-file = Es wurde keine Datei gewählt.
 app-not-read = { $name } konnte nicht gelesen werden: { $error }.
 app-folder-empty = Im Ordner sind keine Dateien.

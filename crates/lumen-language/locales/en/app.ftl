@@ -238,6 +238,16 @@ app-not-opened-again = The surface could not be opened again.
 app-opening-cancelled = Opening was cancelled.
 app-opening-cancelled-kept = Opening was cancelled; what was open still is.
 # $percent: less than 90.
+app-told-again = { $text } ({ $count } times)
+app-open-next = Open next
+app-open-next-help = Open the next of the files that came together, in place of this one
+app-take-away = Dismiss
+app-take-away-help = Take this message away
+app-others = { $rest ->
+    [0] { $next } came with it.
+    [1] { $next } and one more came with it.
+   *[other] { $next } and { $rest } more came with it.
+}
 app-gone-back = Reduced by { $percent } %: more would not be safe.
 app-scan-cancelled = Cancelled; the scan was not opened.
 
@@ -351,7 +361,6 @@ app-forgotten = Everything that was kept on this device is forgotten: settings, 
 # What a dialog offers to open.
 app-dialog-opened = Surfaces, scans, logs and settings
 app-dialog-all = All files
-app-one-at-a-time = Open one surface at a time.
 app-no-file = No file was chosen.
 app-not-read = { $name } could not be read: { $error }.
 app-folder-empty = There are no files in the folder.

@@ -227,6 +227,16 @@ app-not-opened-again = La surface n'a pas pu être rouverte.
 app-opening-cancelled = L'ouverture a été annulée.
 app-opening-cancelled-kept = L'ouverture a été annulée ; ce qui était ouvert l'est toujours.
 # $percent: less than 90.
+app-told-again = { $text } ({ $count } fois)
+app-open-next = Ouvrir le suivant
+app-open-next-help = Ouvrir le suivant des fichiers arrivés ensemble, à la place de celui-ci
+app-take-away = Fermer
+app-take-away-help = Retirer ce message
+app-others = { $rest ->
+    [0] { $next } est arrivé avec lui.
+    [1] { $next } et un autre sont arrivés avec lui.
+   *[other] { $next } et { $rest } autres sont arrivés avec lui.
+}
 app-gone-back = Réduit de { $percent } % : davantage ne serait pas sûr.
 app-scan-cancelled = Annulé ; le scan n'a pas été ouvert.
 
@@ -328,7 +338,6 @@ app-forgotten = Tout ce qui était gardé sur cet appareil est oublié : régla
 
 app-dialog-opened = Surfaces, scans, journaux et réglages
 app-dialog-all = Tous les fichiers
-app-one-at-a-time = Ouvrir une seule surface à la fois.
 app-no-file = Aucun fichier n'a été choisi.
 app-not-read = { $name } n'a pas pu être lu : { $error }.
 app-folder-empty = Il n'y a aucun fichier dans le dossier.

@@ -2,6 +2,7 @@
 
 use super::{Line, agrees, hear, settle, shown, start, stl};
 use crate::app::compare::Outcome;
+use crate::app::notices::Kind;
 use crate::app::state::State;
 use crate::engine::{Command, Event};
 use crate::io::Format;
@@ -60,7 +61,7 @@ fn a_file_that_dies_with_the_engine_is_said_not_to_be_saved() {
     let (mut state, mut line) = start();
     let name = format!("z-{}.stl", shown(&state));
     let says = |state: &State, what: &str| {
-        let notice = state.notice.as_ref().unwrap();
+        let notice = state.notices.newest().unwrap();
         assert!(notice.text.contains(&format!("{name} was not saved")) && notice.text.contains(what), "{notice:?}");
     };
     state.save(Format::Stl, &mut line);
@@ -78,7 +79,7 @@ fn a_file_that_dies_with_the_engine_is_said_not_to_be_saved() {
     settle(&mut state, &mut line);
     state.save(Format::Stl, &mut line);
     assert_eq!(settle(&mut state, &mut line).len(), 1);
-    assert!(state.notice.as_ref().is_none_or(|notice| !notice.text.contains("not saved")), "{:?}", state.notice);
+    assert!(state.notices.newest().is_none_or(|notice| !notice.text.contains("not saved")), "{:?}", state.notices);
 }
 
 #[test]
@@ -112,7 +113,7 @@ fn a_comparison_that_stops_the_engine_again_is_not_in_progress_for_ever() {
     settle(&mut state, &mut line);
     assert!(line.is_dead && !state.is_busy() && !state.comparison.is_busy());
     assert!(matches!(state.comparison.cells()[0].outcome, Outcome::Failed(_)));
-    assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error));
+    assert!(state.notices.newest().is_some_and(|notice| notice.kind == Kind::Wrong));
 }
 
 #[test]
@@ -186,7 +187,12 @@ fn a_surface_that_another_engine_cannot_open_again_stays_and_that_is_said() {
     line.sent.clear();
     let id = state.generation();
     state.receive(Event::OpenFailed { id, name: "z.stl".into(), message: "no memory left".into() });
-    assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error && notice.text.contains("No memory left.")));
+    assert!(
+        state
+            .notices
+            .newest()
+            .is_some_and(|notice| notice.kind == Kind::Wrong && notice.text.contains("No memory left."))
+    );
     state.cancel(&mut line);
     settle(&mut state, &mut line);
     assert_eq!(shown(&state), before);

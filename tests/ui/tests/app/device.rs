@@ -95,7 +95,7 @@ fn full_memory_is_told_and_tried_again_with_a_coarser_level() {
     window.harness.run_steps(3);
     assert_eq!(*window.end.borrow(), None, "the device goes on");
     let sentence = |window: &LastingWindow| {
-        window.harness.state().look(|app| app.state().notice.as_ref().map(|notice| notice.text.clone()))
+        window.harness.state().look(|app| app.state().notices.newest().map(|notice| notice.text.clone()))
     };
     assert!(sentence(&window).is_some_and(|text| text.starts_with("The graphics memory is full")));
     let differs = |a: &[u8], b: &[u8]| a.chunks_exact(4).zip(b.chunks_exact(4)).filter(|(a, b)| a != b).count();

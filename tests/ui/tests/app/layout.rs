@@ -5,7 +5,7 @@ use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::Node;
 use egui_kittest::kittest::{AccessKitNode, NodeT as _, Queryable as _};
-use lumen::app::PlatformEvent;
+use lumen::app::{NoticeKind, PlatformEvent};
 use lumen::language::{self, Language};
 use lumen::say;
 use lumen_ui_tests::told::{App, FIRST, at_entry, frame, now, press, ready, tell};
@@ -53,7 +53,15 @@ fn is_laid_out_in(language: Language, screen: Screen) {
         .events
         .push_back(PlatformEvent::Chosen { name: "carotid_of_the_left_side.vtk".to_owned(), bytes });
     harness.run_steps(10);
-    let refusal = harness.state().state().notice.clone().filter(|notice| notice.is_error).expect("a refusal").text;
+    let refusal = harness
+        .state()
+        .state()
+        .notices
+        .newest()
+        .cloned()
+        .filter(|notice| notice.kind == NoticeKind::Wrong)
+        .expect("a refusal")
+        .text;
     check(&harness, &told("a refusal"), screen, &views);
     let label = harness.get_by_label(&refusal);
     let (rect, bar) = (label.rect(), label.accesskit_node().parent().expect("a bar").id());

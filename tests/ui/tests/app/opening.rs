@@ -1,10 +1,13 @@
 //! Files and samples: opened, chosen from, given up on the way, saved; and an engine that stops.
 
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use lumen::app::{LumenApp, PlatformEvent};
+use lumen::app::{LumenApp, NoticeKind, PlatformEvent};
 use lumen::pipeline::settings::{Keep, Target};
 use lumen_ui_tests::{DESKTOP, app, app_in_full, offered, says, settle, unfold};
 
@@ -33,8 +36,11 @@ fn a_broken_file_gets_a_sentence_and_what_was_open_stays() {
     memory.borrow_mut().events.push_back(broken);
     harness.run_steps(10);
     let state = harness.state().state();
-    let notice = state.notice.as_ref().expect("a sentence");
-    assert!(notice.is_error && notice.text.starts_with("scan.stl: ") && notice.text.ends_with('.'), "{notice:?}");
+    let notice = state.notices.newest().expect("a sentence");
+    assert!(
+        notice.kind == NoticeKind::Wrong && notice.text.starts_with("scan.stl: ") && notice.text.ends_with('.'),
+        "{notice:?}"
+    );
     assert_eq!(shown(&harness), before);
     assert!(harness.query_by_label_contains("scan.stl").is_some());
 }
@@ -168,7 +174,7 @@ fn a_surface_that_is_cancelled_on_its_way_in_leaves_the_one_that_is_open() {
     harness.run_steps(5);
     let state = harness.state().state();
     assert!(state.opening().is_none());
-    assert!(state.notice.as_ref().is_some_and(|notice| notice.text.contains("cancelled")));
+    assert!(state.notices.newest().is_some_and(|notice| notice.text.contains("cancelled")));
     assert_eq!(state.document.as_ref().unwrap().name, "Abdominal aorta");
     assert_eq!(shown(&harness), before);
     memory.borrow_mut().slice = std::time::Duration::from_millis(50);
@@ -185,7 +191,7 @@ fn an_engine_that_stops_is_started_again_and_nothing_is_lost() {
     memory.borrow_mut().engine_failure = Some("out of memory".to_owned());
     harness.run_steps(2);
     assert_eq!(memory.borrow().engines, 2);
-    assert!(harness.state().state().notice.as_ref().is_some_and(|notice| notice.text.contains("out of memory")));
+    assert!(harness.state().state().notices.newest().is_some_and(|notice| notice.text.contains("out of memory")));
     assert_eq!(shown(&harness), before);
     harness.run_steps(50);
     press_at(&mut harness, "Iterations", 0.1);
@@ -220,4 +226,59 @@ fn the_app_opens_with_the_sample_of_the_paper_smoothed_and_reduced() {
     assert!((7_429..=7_430).contains(&shown(&harness)));
     assert!(document.pieces.list.len() > 5, "islands for connectivity to leave out");
     assert!(harness.query_by_label_contains("Not for clinical decisions").is_some());
+}
+
+/// A file that is dropped, of these bytes.
+#[derive(Debug)]
+struct Dropped(PathBuf, Vec<u8>);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Ok(self.1.clone())
+    }
+}
+
+#[test]
+fn of_several_files_that_are_dropped_each_is_offered_after_the_one_before() {
+    let (mut harness, _memory) = app(DESKTOP);
+    settle(&mut harness);
+    let triangle = |name: &str| Dropped(name.into(), b"v 0 0 0\nv 50 0 0\nv 0 50 0\nf 1 2 3\n".to_vec());
+    let broken = Dropped("b.stl".into(), vec![0; 50]);
+    let dropped: [egui::DroppedFileHandle; 3] =
+        [Arc::new(triangle("a.obj")), Arc::new(broken), Arc::new(triangle("c.obj"))];
+    harness.input_mut().dropped_files.extend(dropped);
+    let name = |harness: &Harness<'_, LumenApp>| harness.state().state().document.as_ref().unwrap().name.clone();
+    harness.run_steps(20);
+    assert_eq!(name(&harness), "a.obj");
+    assert!(says(&harness, "b.stl and one more came with it."));
+    harness.get_by_label("Open next").click();
+    harness.run_steps(20);
+    assert_eq!(name(&harness), "a.obj", "the second cannot be read");
+    // What is still to be opened stands under that it could not.
+    harness.get_by_label("Dismiss").click();
+    harness.run_steps(3);
+    assert!(says(&harness, "c.obj came with it.") && !says(&harness, "b.stl: "));
+    harness.get_by_label("Open next").click();
+    harness.run_steps(20);
+    assert_eq!((name(&harness).as_str(), says(&harness, "came with it")), ("c.obj", false));
+    assert!(harness.query_by_label("Dismiss").is_none());
+}
+
+#[test]
+fn what_was_done_goes_from_the_bar_once_it_has_been_read() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let saved = PlatformEvent::Saved { message: "a.stl was saved.".to_owned() };
+    memory.borrow_mut().events.push_back(saved);
+    harness.run_steps(3);
+    assert!(says(&harness, "a.stl was saved."));
+    // A quarter of a second each: 4 s, and a tenth of one for each of its 16 letters.
+    harness.run_steps(20);
+    assert!(says(&harness, "a.stl was saved."));
+    harness.run_steps(6);
+    assert!(!says(&harness, "a.stl was saved."));
 }

@@ -29,7 +29,7 @@ fn letters_grow_the_panel_goes_but_for_what_is_dragged_and_escape_brings_all_bac
         harness.key_press(Key::P);
         harness.run_steps(4);
         let state = harness.state().state();
-        let (told, work) = (state.notice.as_ref().map(|notice| notice.text.clone()), state.work);
+        let (told, work) = (state.notices.newest().map(|notice| notice.text.clone()), state.work);
         assert!(says(&harness, "P or Esc ends it"), "{told:?} {work:?} at {size:?}");
         assert!(!has_panel(&harness));
         for slider in ["Pass band", "Iterations", "Reduction"] {

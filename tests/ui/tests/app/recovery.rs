@@ -11,7 +11,8 @@ use lumen::io::{Format, write};
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::settings::{Keep, Settings, Target};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{DESKTOP, Kept, Memory, dying_page, page, settle};
+use lumen_ui_tests::told::wait;
+use lumen_ui_tests::{DESKTOP, Kept, Memory, dying_page, page, settle, settle_wholly};
 
 /// A vessel as the bytes of a file.
 pub(crate) fn vessel(triangles: usize) -> Vec<u8> {
@@ -23,7 +24,7 @@ fn name(harness: &Harness<'_, LumenApp>) -> String {
 }
 
 pub(crate) fn notice(harness: &Harness<'_, LumenApp>) -> String {
-    harness.state().state().notice.as_ref().map_or(String::new(), |notice| notice.text.clone())
+    harness.state().state().notices.newest().map_or(String::new(), |notice| notice.text.clone())
 }
 
 pub(crate) fn choose(harness: &mut Harness<'_, LumenApp>, entry: &str) {
@@ -100,11 +101,11 @@ fn a_surface_is_kept_only_where_that_is_asked_for_and_forgotten_with_all_else() 
     );
 
     let (mut harness, memory) = page(DESKTOP, kept);
-    settle(&mut harness);
+    wait(&mut harness, |harness| notice(harness).starts_with("right.stl is back"));
+    settle_wholly(&mut harness);
     assert!(
         matches!(&harness.state().state().document.as_ref().unwrap().source, Source::File { name, .. } if name == "right.stl")
     );
-    assert!(notice(&harness).starts_with("right.stl is back"), "{}", notice(&harness));
     choose(&mut harness, "Forget what is kept here");
     harness.run_steps(12);
     let kept = memory.borrow().kept.clone().unwrap();
