@@ -19,8 +19,9 @@ max-width:880px;margin:24px auto;padding:0 16px}\
 h1{font-size:22px;margin:0}h2{font-size:15px;margin:20px 0 6px}p{margin:4px 0}.weak{color:var(--weak)}\
 .verdict{border-left:4px solid var(--weak);padding:4px 12px;margin:16px 0}.safe{border-color:var(--accent)}.grave{border-color:var(--bad)}\
 .columns{display:grid;grid-template-columns:repeat(auto-fit,minmax(260px,1fr));gap:0 24px}\
+.plots{grid-template-columns:repeat(auto-fit,minmax(min(380px,100%),1fr))}\
 table{border-collapse:collapse;width:100%;font-size:13px}td,th{text-align:left;padding:2px 8px 2px 0;vertical-align:top;\
-border-bottom:1px solid var(--line)}th{font-weight:600}.facts td:first-child{color:var(--weak)}.about td:first-child{width:8em}.facts td{overflow-wrap:anywhere;white-space:pre-line}\
+border-bottom:1px solid var(--line)}th{font-weight:600}.facts td:first-child{color:var(--weak)}.about td:first-child{width:8em}.facts td+td{overflow-wrap:anywhere;white-space:pre-line}\
 .pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(180px,1fr));gap:8px}figure{margin:0}img,svg{width:100%;height:auto}\
 figcaption{font-size:12px;color:var(--weak)}.wide{overflow-x:auto}\
 @media print{@page{size:A4;margin:12mm}body{margin:0;max-width:none;font-size:11px}table{font-size:10px}\
@@ -67,7 +68,7 @@ pub(super) fn write(document: &Document) -> String {
     facts(&mut page, &say!("report-file"), &document.file);
     facts(&mut page, &say!("report-settings"), &document.settings);
     facts(&mut page, &say!("report-numbers"), &document.numbers);
-    page += "</div>\n<div class=\"columns\">";
+    page += "</div>\n<div class=\"columns plots\">";
     for plot in &document.plots {
         let _ = write!(page, "<figure><h2>{}</h2>", escaped(&plot.title));
         svg(&mut page, plot);

@@ -91,8 +91,8 @@ pub(super) const LETTERS: f64 = 11.5;
 const LEFT: f64 = 48.0;
 const RIGHT: f64 = 412.0;
 /// Heights of the first panel and of the others, of the line above each, and of marks and label of the axis across.
-const PANEL: f64 = 116.0;
-const LOWER: f64 = 58.0;
+const PANEL: f64 = 96.0;
+const LOWER: f64 = 46.0;
 const HEAD: f64 = 20.0;
 const FOOT: f64 = 38.0;
 
@@ -259,7 +259,7 @@ mod tests {
     fn branches(mesh: TriMesh) -> Vec<BranchCalibre> {
         let settings = Settings { target: Target::Reduction(900), ..Settings::default() };
         let mut pipeline = Pipeline::new(mesh.into(), settings).with_certificate();
-        pipeline.run();
+        pipeline.finish().unwrap();
         Report::new("a", &pipeline).unwrap().branches.unwrap()
     }
 
