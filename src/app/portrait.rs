@@ -1,5 +1,7 @@
 //! Pictures of a surface for files: drawn apart from what the views show, in the size that is asked for.
 
+use std::sync::Arc;
+
 use crate::mesh::{Bounds, TriMesh};
 use crate::render::{
     Backdrop, Camera, Colour, ColourMap, Drawable, GpuSurface, Look, Picture, PictureError, Renderer, Style,
@@ -7,6 +9,7 @@ use crate::render::{
 };
 
 use super::lettering::Lettering;
+use super::measure;
 use super::overlay::{self, Writing};
 use super::scene::upload;
 use super::sides::{first_view, stand};
@@ -15,6 +18,7 @@ use crate::language::{decimal, signed};
 use crate::mesh::ArrayInfo;
 use crate::report::Pixels;
 use crate::say;
+use crate::sharing::measures::Measure;
 
 /// What is behind the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +52,8 @@ pub(super) struct Marks {
     pub(super) scale: f32,
     /// The theme whose letters they are.
     pub(super) theme: egui::Theme,
+    /// Measures, drawn as in the views.
+    pub(super) measures: Arc<Vec<Measure>>,
     /// What else stands in a picture of its own; in a report it stands beside it.
     pub(super) alone: Option<Alone>,
 }
@@ -65,6 +71,7 @@ pub(super) struct Alone {
 impl Marks {
     fn write(&self, ui: &egui::Ui, rect: egui::Rect, camera: &Camera) {
         let axes = self.axes;
+        measure::draw(ui, rect, camera, &self.measures);
         let Some(Alone { legend, array }) = &self.alone else {
             return overlay::scale_and_axes(ui, rect, camera, axes);
         };
@@ -160,8 +167,8 @@ pub(super) fn camera(bounds: &Bounds, axes: Axes, aspect: f32) -> Camera {
 pub(super) const SIZE: [u32; 2] = [640, 720];
 
 /// What is written over the pictures of a report, four of which stand in a row: letters of twice the size can be read there.
-fn report_marks(axes: Axes) -> Marks {
-    Marks { axes, scale: 2.0, theme: egui::Theme::Light, alone: None }
+fn report_marks(axes: Axes, measures: Arc<Vec<Measure>>) -> Marks {
+    Marks { axes, scale: 2.0, theme: egui::Theme::Light, measures, alone: None }
 }
 
 /// The four pictures of a report: what each shows, and which surface, look and colours that takes.
@@ -181,14 +188,16 @@ impl Shown {
     /// In their order.
     pub(super) const ALL: [Self; 4] = [Self::Opened, Self::Reduced, Self::Wireframe, Self::Colours];
 
-    /// How it is drawn on white, seen by `camera`; `map` is what the colours mean, `axes` which way the patient lies.
-    pub(super) fn pose(self, camera: Camera, map: Option<ColourMap>, axes: Axes) -> Pose {
+    /// How it is drawn on white, seen by `camera`; `map` is what the colours mean, `axes` which way the patient lies. The
+    /// measures are drawn on the plain surfaces, where they hide neither triangles nor colours.
+    pub(super) fn pose(self, camera: Camera, map: Option<ColourMap>, axes: Axes, measures: &Arc<Vec<Measure>>) -> Pose {
         let look = if self == Self::Wireframe { Look::Wireframe } else { Look::Shaded };
         let map = map.filter(|_| self == Self::Colours);
         // It would darken colours that the legend explains, and lines have nothing to be darkened by.
-        let occlusion = matches!(self, Self::Opened | Self::Reduced);
-        let style = Style { map, unknown: Some(Style::UNKNOWN), occlusion, ..Style::LIGHT };
-        Pose { camera, size: SIZE, look, style, behind: Behind::White, marks: report_marks(axes) }
+        let is_plain = matches!(self, Self::Opened | Self::Reduced);
+        let style = Style { map, unknown: Some(Style::UNKNOWN), occlusion: is_plain, ..Style::LIGHT };
+        let marks = report_marks(axes, if is_plain { measures.clone() } else { Arc::default() });
+        Pose { camera, size: SIZE, look, style, behind: Behind::White, marks }
     }
 
     /// What it shows; `colours` is what the colours mean.
@@ -237,6 +246,8 @@ pub use native::report_pictures;
 /// What needs to wait for the device.
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
+    use std::sync::Arc;
+
     use super::{Portrait, SIZE, Shown, camera, meaning, pixels};
     use crate::app::compare::figure::{FigureError, Studio};
     use crate::io::Axes;
@@ -268,7 +279,8 @@ mod native {
             }
             let scalars = deviation.map(|(scalars, _)| scalars).filter(|_| shown == Shown::Colours);
             portrait.seat(if shown == Shown::Opened { opened } else { reduced }, scalars)?;
-            let picture = Picture::read_now(&portrait.draw(&shown.pose(seen, map, axes)), device, queue)?;
+            let picture =
+                Picture::read_now(&portrait.draw(&shown.pose(seen, map, axes, &Arc::default())), device, queue)?;
             let colours = map.as_ref().map_or(String::new(), |map| meaning(map, false));
             pictures.push((shown.caption(&colours), pixels(picture)));
         }

@@ -1,4 +1,4 @@
-//! The sheets over the window: keys and gestures, and what Lumen is.
+//! The sheets over the window: keys and gestures, what Lumen is, and what a report is to have.
 
 use egui::{Grid, Id, Modal, RichText, ScrollArea, Ui};
 
@@ -18,6 +18,8 @@ pub enum Sheet {
     About,
     /// The words of the method.
     Glossary,
+    /// What a report is to have.
+    Report,
 }
 
 /// What keys and gestures do in the views. Those of the panels come after them.
@@ -53,8 +55,8 @@ pub(super) fn keys(of_mode: Option<&[(Key, Key)]>, of_panels: &[(Key, Key)]) -> 
     of_mode.map_or_else(|| [&IN_VIEWS[..], of_panels, &OTHERS[..]].concat(), <[_]>::to_vec)
 }
 
-/// Shows a sheet; says whether it should be closed. `keys` are the lines of that of keys.
-pub(super) fn show(ui: &Ui, sheet: Sheet, keys: &[(Key, Key)]) -> bool {
+/// Shows a sheet; says whether it should be closed. `keys` are the lines of that of keys, `report` shows that of a report.
+pub(super) fn show(ui: &Ui, sheet: Sheet, keys: &[(Key, Key)], report: &mut dyn FnMut(&mut Ui)) -> bool {
     let frame = egui::Frame::popup(ui.style()).inner_margin(24.0);
     let response = Modal::new(Id::unique("sheet")).frame(frame).show(ui.ctx(), |ui| {
         ui.set_max_width(560.0_f32.min(ui.ctx().content_rect().width() - 80.0));
@@ -62,6 +64,7 @@ pub(super) fn show(ui: &Ui, sheet: Sheet, keys: &[(Key, Key)]) -> bool {
             Sheet::Help => help(ui, keys),
             Sheet::About => about(ui),
             Sheet::Glossary => words(ui),
+            Sheet::Report => report(ui),
         }
         ui.add_space(8.0);
         ui.vertical_centered(|ui| ui.button(say!("app-close")).clicked()).inner

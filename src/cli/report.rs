@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result};
+use chrono::NaiveDate;
 use clap::Args;
 
 use super::misuse::misuse;
@@ -18,7 +19,7 @@ use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::verdict::Verdict;
-use crate::report::{Document, Picture, ReportFormat, Subject};
+use crate::report::{Document, Heading, Picture, ReportFormat, Subject, today};
 
 /// Writes a page for the record.
 #[derive(Debug, Args)]
@@ -33,6 +34,15 @@ pub struct WriteReport {
     /// What the page is called; the name of the file is not on it, because that may be a patient's
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
+    /// Which case it is of
+    #[arg(long, value_name = "TEXT")]
+    case: Option<String>,
+    /// What else is to be said; may have several lines
+    #[arg(long, value_name = "TEXT")]
+    comment: Option<String>,
+    /// The day on the page, such as 2026-11-26; today without it
+    #[arg(long, value_name = "DAY")]
+    date: Option<NaiveDate>,
     /// Leave the pictures out
     #[arg(long)]
     no_pictures: bool,
@@ -60,14 +70,14 @@ impl WriteReport {
         report.axes = import.axes;
         let verdict = Verdict::of_run(&pipeline, &report, &import, Format::from_name(&self.file).is_some());
         let drawn = if self.no_pictures { Vec::new() } else { self.pictures(&pipeline, import.axes)? };
-        let subject = Subject {
-            title: self.title.as_deref(),
-            digest,
-            import: &import,
-            report: &report,
-            verdict: &verdict,
-            measures: &[],
+        let heading = Heading {
+            title: self.title.clone(),
+            date: self.date.map_or_else(today, |date| date.to_string()),
+            case: self.case.clone().unwrap_or_default(),
+            comment: self.comment.clone().unwrap_or_default(),
         };
+        let subject =
+            Subject { heading: &heading, digest, import: &import, report: &report, verdict: &verdict, measures: &[] };
         let document = Document::new(&subject, drawn);
         write_whole(&self.output, &format.write(&document))?;
         row("verdict", verdict.in_short(|words| words.to_string()));

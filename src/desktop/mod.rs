@@ -114,7 +114,11 @@ impl Files for Desktop {
 
 impl Storage for Desktop {}
 
-impl Screen for Desktop {}
+impl Screen for Desktop {
+    fn today(&self) -> String {
+        crate::report::today()
+    }
+}
 
 impl Sharing for Desktop {}
 

@@ -16,7 +16,7 @@ use crate::pipeline::report::Report;
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
-use crate::report::ReportFormat;
+use crate::report::{Heading, ReportFormat};
 use crate::say;
 use crate::sharing::measures::Measure;
 use crate::transfer::{bulk, optional};
@@ -93,8 +93,8 @@ pub enum Command {
         name: String,
         /// What it is written as.
         format: ReportFormat,
-        /// What the report is called.
-        title: Option<String>,
+        /// What stands at its head.
+        heading: Heading,
         /// What the surface's coordinates grow towards.
         axes: Axes,
         /// What a user has measured.
@@ -329,7 +329,7 @@ mod tests {
             Command::WriteReport {
                 name: "c.pdf".into(),
                 format: ReportFormat::Pdf,
-                title: Some("c".into()),
+                heading: Heading { date: "2026-11-26".into(), comment: "a\nb".into(), ..Heading::default() },
                 axes: Axes::Lps,
                 measures: vec![Measure {
                     name: "Ruler 1".into(),

@@ -86,8 +86,8 @@ impl Engine {
             Command::Cancel => self.cancel(),
             Command::WriteCentrelines { name, format } => self.write_centrelines(name, format),
             Command::WriteLevel { name, format } => self.write_level(name, format),
-            Command::WriteReport { name, format, title, axes, measures, pictures } => {
-                self.write_report(name, Asked { format, title, axes, measures, pictures });
+            Command::WriteReport { name, format, heading, axes, measures, pictures } => {
+                self.write_report(name, Asked { format, heading, axes, measures, pictures });
             }
             Command::WriteFrame { name, index, count, has_alpha, frame } => {
                 self.events.extend(self.animation.take(name, [index, count], has_alpha, frame));

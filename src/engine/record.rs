@@ -5,7 +5,7 @@ use crate::io::{Axes, ImportReport};
 use crate::pipeline::report::Report;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::verdict::Verdict;
-use crate::report::{Document, Picture, PictureError, Pixels, ReportFormat, Strip, Subject};
+use crate::report::{Document, Heading, Picture, PictureError, Pixels, ReportFormat, Strip, Subject};
 use crate::say;
 use crate::sharing::Digest;
 use crate::sharing::measures::Measure;
@@ -25,7 +25,7 @@ pub(super) struct Origin {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Asked {
     pub(super) format: ReportFormat,
-    pub(super) title: Option<String>,
+    pub(super) heading: Heading,
     pub(super) axes: Axes,
     pub(super) measures: Vec<Measure>,
     pub(super) pictures: Vec<Frame>,
@@ -45,7 +45,7 @@ pub(super) fn report(name: &str, pipeline: &Pipeline, origin: &Origin, asked: As
     };
     let pictures = asked.pictures.into_iter().map(picture).collect::<Result<Vec<_>, _>>()?;
     let subject = Subject {
-        title: asked.title.as_deref(),
+        heading: &asked.heading,
         digest: origin.digest,
         import: &origin.import,
         report: &report,

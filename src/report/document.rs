@@ -2,6 +2,8 @@
 
 use std::cmp::Reverse;
 
+use serde::{Deserialize, Serialize};
+
 use super::picture::Picture;
 use super::plot::{Plot, radius, response};
 use super::words::{others, said};
@@ -19,11 +21,38 @@ use crate::vessel::variation::{Kind as VariationKind, Variation};
 /// Vessels whose radius is drawn: those that are narrower or wider somewhere, or change most.
 const DRAWN: usize = 3;
 
+/// What stands at the head of a report. It goes into the report alone: no settings, no link and nothing that is kept on
+/// the device has it, for it may name a patient.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Heading {
+    /// What the report is called: a name that the user has chosen, for names of files and scans can be those of patients.
+    pub title: Option<String>,
+    /// The day on which it is made, as ISO 8601 writes it.
+    pub date: String,
+    /// Which case it is of; empty for none.
+    pub case: String,
+    /// What else is to be said, in lines; empty for nothing.
+    pub comment: String,
+}
+
+impl Heading {
+    /// What is known of it, row by row.
+    fn rows(&self) -> Vec<Row> {
+        let rows = [
+            (say!("report-date"), &self.date),
+            (say!("report-case"), &self.case),
+            (say!("report-comment"), &self.comment),
+        ];
+        let said = rows.into_iter().map(|(name, value)| (name, value.trim().to_owned()));
+        said.filter(|(_, value)| !value.is_empty()).collect()
+    }
+}
+
 /// What a report is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct Subject<'a> {
-    /// What it is called: a name that the user has chosen, for names of files and scans can be those of patients.
-    pub title: Option<&'a str>,
+    /// What stands at its head.
+    pub heading: &'a Heading,
     /// By what the file is known; none of a sample or a scan.
     pub digest: Option<Digest>,
     /// What was found when it was opened.
@@ -55,6 +84,8 @@ pub struct Document {
     pub title: String,
     /// The version of Lumen, and what it is not for.
     pub line: String,
+    /// The day on which it was made, and what the user says of it.
+    pub about: Vec<Row>,
     /// What the file is.
     pub file: Vec<Row>,
     /// What it was made with.
@@ -82,11 +113,12 @@ pub struct Document {
 impl Document {
     /// A report on a run that is over, with these pictures.
     pub fn new(subject: &Subject<'_>, pictures: Vec<Picture>) -> Self {
-        let Subject { title, report, verdict, .. } = *subject;
+        let Subject { heading, report, verdict, .. } = *subject;
         let branches = report.branches.as_deref().unwrap_or_default();
         let mut plots: Vec<Plot> =
             response(&report.settings.smoothing, report.smoothing_response.as_ref()).into_iter().collect();
-        plots.extend(drawn(branches).into_iter().filter_map(radius));
+        let tolerance = report.settings.tolerance_percent;
+        plots.extend(drawn(branches).into_iter().filter_map(|branch| radius(branch, tolerance)));
         let findings = verdict.findings.iter().map(|finding| {
             let at = finding.place.as_ref().map(|place| place.at_mm.map(|at| decimal(at, 1)));
             let text = tell(&finding.what);
@@ -99,7 +131,8 @@ impl Document {
         let is_found = verdict.findings.iter().any(|finding| matches!(finding.what, FindingKind::Calibre(_)));
         let calibre = verdict.calibre.as_ref().filter(|_| !is_found).map(|calibre| tell(calibre));
         Self {
-            title: title.map_or_else(|| say!("report-title"), str::to_owned),
+            title: heading.title.clone().unwrap_or_else(|| say!("report-title")),
+            about: heading.rows(),
             line: format!("Lumen {}. {}", report.lumen, say!("report-not-clinical")),
             file: file(subject),
             settings: settings(report),

@@ -7,7 +7,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
 use super::document::{Document, Row, Table};
-use super::plot::{Ink, Plot};
+use super::plot::{Ink, LETTERS, Mark, Plot, WIDE};
 use crate::language::spoken;
 use crate::say;
 
@@ -19,10 +19,11 @@ max-width:880px;margin:24px auto;padding:0 16px}\
 h1{font-size:22px;margin:0}h2{font-size:15px;margin:20px 0 6px}p{margin:4px 0}.weak{color:var(--weak)}\
 .verdict{border-left:4px solid var(--weak);padding:4px 12px;margin:16px 0}.safe{border-color:var(--accent)}.grave{border-color:var(--bad)}\
 .columns{display:grid;grid-template-columns:repeat(auto-fit,minmax(260px,1fr));gap:0 24px}\
+.plots{grid-template-columns:repeat(auto-fit,minmax(min(380px,100%),1fr))}\
 table{border-collapse:collapse;width:100%;font-size:13px}td,th{text-align:left;padding:2px 8px 2px 0;vertical-align:top;\
-border-bottom:1px solid var(--line)}th{font-weight:600}.facts td:first-child{color:var(--weak)}.facts td{overflow-wrap:anywhere}\
+border-bottom:1px solid var(--line)}th{font-weight:600}.facts td:first-child{color:var(--weak)}.about td:first-child{width:8em}.facts td+td{overflow-wrap:anywhere;white-space:pre-line}\
 .pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(180px,1fr));gap:8px}figure{margin:0}img,svg{width:100%;height:auto}\
-figcaption{font-size:12px;color:var(--weak)}.wide{overflow-x:auto}svg text{fill:var(--weak);font-size:11px}\
+figcaption{font-size:12px;color:var(--weak)}.wide{overflow-x:auto}\
 @media print{@page{size:A4;margin:12mm}body{margin:0;max-width:none;font-size:11px}table{font-size:10px}\
 h2,figure,tr{break-inside:avoid}.pictures{grid-template-columns:repeat(4,1fr)}}";
 
@@ -35,9 +36,11 @@ pub(super) fn write(document: &Document) -> String {
         "<!doctype html>\n<html lang=\"{language}\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';img-src data:;style-src 'unsafe-inline'\">\
-         <title>{title}</title><style>{STYLE}</style></head><body>\n<h1>{title}</h1><p class=\"weak\">{}</p>\n",
+         <title>{title}</title><style>{STYLE}</style></head><body>\n<h1>{title}</h1><p class=\"weak\">{}</p>\n<table class=\"facts about\">",
         escaped(&document.line)
     );
+    rows(&mut page, &document.about);
+    page += "</table>\n";
     let class = match document.is_safe {
         Some(true) => "verdict safe",
         Some(false) => "verdict grave",
@@ -65,7 +68,7 @@ pub(super) fn write(document: &Document) -> String {
     facts(&mut page, &say!("report-file"), &document.file);
     facts(&mut page, &say!("report-settings"), &document.settings);
     facts(&mut page, &say!("report-numbers"), &document.numbers);
-    page += "</div>\n<div class=\"columns\">";
+    page += "</div>\n<div class=\"columns plots\">";
     for plot in &document.plots {
         let _ = write!(page, "<figure><h2>{}</h2>", escaped(&plot.title));
         svg(&mut page, plot);
@@ -79,7 +82,7 @@ pub(super) fn write(document: &Document) -> String {
     page
 }
 
-/// Text that is nothing but text, in elements and in attributes.
+/// Text that is nothing but text, in elements and in attributes; its lines stay lines.
 fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -89,19 +92,23 @@ fn escaped(text: &str) -> String {
             '>' => safe += "&gt;",
             '"' => safe += "&quot;",
             '\'' => safe += "&#39;",
-            letter if letter.is_control() => safe.push(' '),
+            letter if letter.is_control() && letter != '\n' => safe.push(' '),
             letter => safe.push(letter),
         }
     }
     safe
 }
 
-fn facts(page: &mut String, head: &str, rows: &[Row]) {
+fn facts(page: &mut String, head: &str, list: &[Row]) {
     let _ = write!(page, "<section><h2>{}</h2><table class=\"facts\">", escaped(head));
+    rows(page, list);
+    *page += "</table></section>";
+}
+
+fn rows(page: &mut String, rows: &[Row]) {
     for (name, value) in rows {
         let _ = write!(page, "<tr><td>{}</td><td>{}</td></tr>", escaped(name), escaped(value));
     }
-    *page += "</table></section>";
 }
 
 fn table(page: &mut String, head: &str, table: &Table) {
@@ -123,42 +130,30 @@ fn table(page: &mut String, head: &str, table: &Table) {
     *page += "</tbody></table></div>\n";
 }
 
-/// Where the axes stand in a picture of 420 by 200.
-const LEFT: f64 = 44.0;
-const RIGHT: f64 = 412.0;
-const TOP: f64 = 18.0;
-const BOTTOM: f64 = 160.0;
-
 fn svg(page: &mut String, plot: &Plot) {
-    let x = |value: f64| LEFT + (RIGHT - LEFT) * plot.x.part(value);
-    let y = |value: f64| BOTTOM - (BOTTOM - TOP) * plot.y.part(value);
-    let _ = write!(page, "<svg viewBox=\"0 0 420 200\" role=\"img\" aria-label=\"{}\">", escaped(&plot.title));
-    let frame = format!("M{LEFT} {TOP}V{BOTTOM}H{RIGHT}");
-    let _ = write!(page, "<path d=\"{frame}\" fill=\"none\" stroke=\"var(--line)\"/>");
-    for (at, name) in &plot.x.marks {
-        let _ = write!(page, "<text x=\"{:.1}\" y=\"174\" text-anchor=\"middle\">{}</text>", x(*at), escaped(name));
-    }
-    for (at, name) in &plot.y.marks {
-        let (x, y) = (LEFT - 6.0, y(*at) + 4.0);
-        let _ = write!(page, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"end\">{}</text>", escaped(name));
-    }
-    let middle = (LEFT + RIGHT) / 2.0;
-    let _ = write!(page, "<text x=\"{middle}\" y=\"192\" text-anchor=\"middle\">{}</text>", escaped(&plot.x.label));
-    let _ = write!(page, "<text x=\"2\" y=\"11\">{}</text>", escaped(&plot.y.label));
-    let mut legend = RIGHT;
-    for curve in &plot.curves {
-        let ink = colour(curve.ink);
-        let dash = if curve.is_dashed { " stroke-dasharray=\"4 3\"" } else { "" };
-        let _ = write!(page, "<polyline fill=\"none\" stroke-width=\"1.5\" stroke=\"{ink}\"{dash} points=\"");
-        for &[a, b] in &curve.points {
-            let _ = write!(page, "{:.1},{:.1} ", x(a), y(b));
-        }
-        *page += "\"/>";
-        if !curve.name.is_empty() {
-            let name = escaped(&curve.name);
-            let _ =
-                write!(page, "<text x=\"{legend:.0}\" y=\"11\" text-anchor=\"end\" style=\"fill:{ink}\">{name}</text>");
-            legend -= 7.0 * curve.name.chars().count() as f64 + 8.0;
+    let (high, title) = (plot.height(), escaped(&plot.title));
+    let _ =
+        write!(page, "<svg viewBox=\"0 0 {WIDE} {high}\" font-size=\"{LETTERS}\" role=\"img\" aria-label=\"{title}\">");
+    for mark in plot.drawn() {
+        match mark {
+            Mark::Line { points, ink, is_dashed } => {
+                let dash = if is_dashed { " stroke-dasharray=\"4 3\"" } else { "" };
+                let stroke = colour(ink);
+                let _ =
+                    write!(page, "<polyline fill=\"none\" stroke-width=\"1.5\" stroke=\"{stroke}\"{dash} points=\"");
+                for [x, y] in points {
+                    let _ = write!(page, "{x:.1},{y:.1} ");
+                }
+                *page += "\"/>";
+            }
+            Mark::Text { at: [x, y], pull, text, ink } => {
+                let anchor = ["start", "middle", "end"][(2.0 * pull) as usize];
+                let (fill, text) = (colour(ink), escaped(&text));
+                let _ = write!(
+                    page,
+                    "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" style=\"fill:{fill}\">{text}</text>"
+                );
+            }
         }
     }
     *page += "</svg>";
@@ -169,6 +164,7 @@ fn colour(ink: Ink) -> &'static str {
         Ink::Accent => "var(--accent)",
         Ink::Text => "var(--ink)",
         Ink::Weak => "var(--weak)",
+        Ink::Line => "var(--line)",
     }
 }
 
@@ -182,6 +178,7 @@ mod tests {
         let document = Document {
             title: "A".to_owned(),
             line: "B".to_owned(),
+            about: Vec::new(),
             file: Vec::new(),
             settings: Vec::new(),
             numbers: Vec::new(),

@@ -59,8 +59,13 @@ pub(super) fn width(text: &[u8], size: f32, is_bold: bool) -> f32 {
     sum as f32 / 1000.0 * size * if is_bold { BOLD } else { 1.0 }
 }
 
-/// A text in lines no wider than `room` points, broken at spaces, and within a word where that alone is wider.
+/// A text in lines no wider than `room` points: its own lines, broken at spaces, and within a word where that alone is wider.
 pub(super) fn lines(text: &str, size: f32, room: f32) -> Vec<Vec<u8>> {
+    text.split('\n').flat_map(|line| broken(line, size, room)).collect()
+}
+
+/// A line of a text, likewise.
+fn broken(text: &str, size: f32, room: f32) -> Vec<Vec<u8>> {
     let mut lines: Vec<Vec<u8>> = Vec::new();
     let mut line: Vec<u8> = Vec::new();
     for word in encoded(text).split(|&letter| letter == b' ') {
@@ -95,6 +100,11 @@ mod tests {
         assert!(found.len() > 3 && found.iter().all(|line| width(line, 8.0, false) <= 90.0));
         let letters = |text: &[u8]| text.iter().filter(|&&letter| letter != b' ').count();
         assert_eq!(found.iter().map(|line| letters(line)).sum::<usize>(), letters(text.as_bytes()));
+    }
+
+    #[test]
+    fn a_text_of_several_lines_keeps_them_and_what_is_empty_between() {
+        assert_eq!(lines("one two\n\nthree", 8.0, 90.0), [&b"one two"[..], b"", b"three"]);
     }
 
     #[test]

@@ -9,13 +9,17 @@ mod letters;
 mod pdf;
 mod picture;
 mod plot;
+#[cfg(not(target_arch = "wasm32"))]
+mod today;
 pub mod words;
 
 use serde::{Deserialize, Serialize};
 
-pub use document::{Document, Row, Subject, Table};
+pub use document::{Document, Heading, Row, Subject, Table};
 pub use picture::{Picture, PictureError, Pixels, Strip};
-pub use plot::{Axis, Curve, Ink, Plot};
+pub use plot::{Axis, Curve, Ink, Panel, Plot};
+#[cfg(not(target_arch = "wasm32"))]
+pub use today::today;
 
 /// What a report is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

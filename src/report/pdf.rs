@@ -1,13 +1,13 @@
 //! A report as PDF (ISO 32000-1), A4: one page where there are few vessels, more where there are many, each with the head of
-//! the table. Its text is text, in Helvetica and WinAnsiEncoding; plots are paths; pictures are the rows of their PNG. It
-//! bears no date: the same report gives the same bytes.
+//! the table. Its text is text, in Helvetica and WinAnsiEncoding; plots are paths; pictures are the rows of their PNG. The
+//! same report gives the same bytes: no clock is read here.
 
 use pdf_writer::types::Predictor;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
 use super::document::{Document, Row, Table};
 use super::letters::{encoded, lines, width};
-use super::plot::{Ink, Plot};
+use super::plot::{Ink, LETTERS, Mark, Plot, WIDE};
 use crate::language::spoken;
 use crate::say;
 
@@ -25,6 +25,8 @@ const SMALL: f32 = 7.0;
 const LEADING: f32 = 1.35;
 /// Between columns.
 const GAP: f32 = 14.0;
+/// Width of the names of date, case and comment.
+const ABOUT: f32 = 60.0;
 
 /// Colours: red, green, blue.
 const INK: [f32; 3] = [0.11, 0.14, 0.17];
@@ -117,6 +119,8 @@ fn rule(page: &mut Content, from: [f32; 2], to: [f32; 2], wide: f32, [red, green
 fn head(pages: &mut Pages, document: &Document) {
     pages.text(&document.title, TITLE, true, INK);
     pages.text(&document.line, TEXT, false, WEAK);
+    pages.used += 2.0;
+    entries(pages, MARGIN, [ABOUT, WIDTH - 2.0 * MARGIN - ABOUT], &document.about);
     pages.used += 6.0;
     let colour = match document.is_safe {
         Some(true) => ACCENT,
@@ -172,11 +176,17 @@ fn facts(pages: &mut Pages, document: &Document) {
 fn list(pages: &mut Pages, left: f32, room: f32, head: &str, rows: &[Row]) {
     pages.used += HEAD * LEADING;
     pages.letters([left, pages.used - 3.0], &encoded(head), HEAD, true, INK);
-    let name_room = 0.4 * room;
+    entries(pages, left, [0.4 * room, 0.6 * room], rows);
+}
+
+/// Names and what they are, in columns of these widths; what is long goes on over pages.
+fn entries(pages: &mut Pages, left: f32, [name_room, room]: [f32; 2], rows: &[Row]) {
     for (name, value) in rows {
-        let values = lines(value, TEXT, room - name_room);
-        pages.letters([left, pages.used + TEXT], &encoded(name), TEXT, false, WEAK);
-        for line in &values {
+        for (k, line) in lines(value, TEXT, room).iter().enumerate() {
+            pages.fits(TEXT * LEADING);
+            if k == 0 {
+                pages.letters([left, pages.used + TEXT], &encoded(name), TEXT, false, WEAK);
+            }
             pages.letters([left + name_room, pages.used + TEXT], line, TEXT, false, INK);
             pages.used += TEXT * LEADING;
         }
@@ -186,61 +196,56 @@ fn list(pages: &mut Pages, left: f32, room: f32, head: &str, rows: &[Row]) {
 /// Two in a row.
 fn plots(pages: &mut Pages, plots: &[Plot]) {
     let wide = (WIDTH - 2.0 * MARGIN - GAP) / 2.0;
-    let high = 104.0;
+    let scale = wide / WIDE as f32;
     for pair in plots.chunks(2) {
-        pages.fits(high + 6.0);
-        let bottom = HEIGHT - pages.used - high;
+        let high = TEXT * LEADING + scale * pair.iter().map(Plot::height).fold(0.0, f64::max) as f32;
+        pages.fits(high);
         for (i, plot) in pair.iter().enumerate() {
-            draw(pages.page(), plot, [MARGIN + (wide + GAP) * i as f32, bottom], [wide, high]);
+            let left = MARGIN + (wide + GAP) * i as f32;
+            pages.letters([left, pages.used + TEXT], &encoded(&plot.title), TEXT, true, INK);
+            let top = HEIGHT - pages.used - TEXT * LEADING;
+            draw(pages.page(), plot, [left, top], scale);
         }
         pages.used += high + 8.0;
     }
 }
 
-/// A plot with its lower left corner at `at`.
-fn draw(page: &mut Content, plot: &Plot, at: [f32; 2], size: [f32; 2]) {
-    let (left, right) = (at[0] + 30.0, at[0] + size[0]);
-    let (bottom, top) = (at[1] + 22.0, at[1] + size[1] - 24.0);
-    let x = |value: f64| left + (right - left) * plot.x.part(value) as f32;
-    let y = |value: f64| bottom + (top - bottom) * plot.y.part(value) as f32;
-    let small = |page: &mut Content, at: [f32; 2], text: &str, pull: f32, colour| {
-        let text = encoded(text);
-        let left = at[0] - pull * width(&text, SMALL, false);
-        letters(page, [left, at[1]], &text, SMALL, false, colour);
-    };
-    letters(page, [at[0], at[1] + size[1] - TEXT], &encoded(&plot.title), TEXT, true, INK);
-    small(page, [at[0], top + 6.0], &plot.y.label, 0.0, WEAK);
-    small(page, [(left + right) / 2.0, at[1] + 2.0], &plot.x.label, 0.5, WEAK);
-    rule(page, [left, bottom], [right, bottom], 0.5, LINE);
-    rule(page, [left, bottom], [left, top], 0.5, LINE);
-    for (value, name) in &plot.x.marks {
-        small(page, [x(*value), bottom - 9.0], name, 0.5, WEAK);
+/// A plot with its upper left corner at `corner`, `scale` points to a unit of its own.
+fn draw(page: &mut Content, plot: &Plot, corner: [f32; 2], scale: f32) {
+    let place = |[x, y]: [f64; 2]| [corner[0] + scale * x as f32, corner[1] - scale * y as f32];
+    for mark in plot.drawn() {
+        match mark {
+            Mark::Line { points, ink, is_dashed } => {
+                let [red, green, blue] = colour(ink);
+                let Some((&first, rest)) = points.split_first() else { continue };
+                page.save_state().set_stroke_rgb(red, green, blue);
+                page.set_line_width(if ink == Ink::Line { 0.5 } else { 1.0 });
+                if is_dashed {
+                    page.set_dash_pattern([3.0, 2.0], 0.0);
+                }
+                let [x, y] = place(first);
+                page.move_to(x, y);
+                for &point in rest {
+                    let [x, y] = place(point);
+                    page.line_to(x, y);
+                }
+                page.stroke().restore_state();
+            }
+            Mark::Text { at, pull, text, ink } => {
+                let (text, size, [x, y]) = (encoded(&text), scale * LETTERS as f32, place(at));
+                let left = x - pull as f32 * width(&text, size, false);
+                letters(page, [left, y], &text, size, false, colour(ink));
+            }
+        }
     }
-    for (value, name) in &plot.y.marks {
-        small(page, [left - 4.0, y(*value) - 2.5], name, 1.0, WEAK);
-    }
-    let mut legend = right;
-    for curve in &plot.curves {
-        let colour = match curve.ink {
-            Ink::Accent => ACCENT,
-            Ink::Text => INK,
-            Ink::Weak => WEAK,
-        };
-        if !curve.name.is_empty() {
-            small(page, [legend, top + 6.0], &curve.name, 1.0, colour);
-            legend -= width(&encoded(&curve.name), SMALL, false) + 8.0;
-        }
-        let Some((first, rest)) = curve.points.split_first() else { continue };
-        let [red, green, blue] = colour;
-        page.save_state().set_stroke_rgb(red, green, blue).set_line_width(1.0);
-        if curve.is_dashed {
-            page.set_dash_pattern([3.0, 2.0], 0.0);
-        }
-        page.move_to(x(first[0]), y(first[1]));
-        for &[a, b] in rest {
-            page.line_to(x(a), y(b));
-        }
-        page.stroke().restore_state();
+}
+
+fn colour(ink: Ink) -> [f32; 3] {
+    match ink {
+        Ink::Accent => ACCENT,
+        Ink::Text => INK,
+        Ink::Weak => WEAK,
+        Ink::Line => LINE,
     }
 }
 

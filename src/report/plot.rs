@@ -1,13 +1,14 @@
-//! Curves over axes, as both formats draw them.
+//! Curves over axes. [`Plot::drawn`] lays out lines and letters once; both formats draw those.
 
-use crate::language::{decimal, grouped, tell};
+use super::letters::{encoded, width};
+use crate::language::{decimal, exact, grouped, tell};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::response::{SmoothingResponse, eigenvalue};
 use crate::pipeline::settings::Smoothing;
 use crate::say;
 use crate::vessel::certificate::{BranchCalibre, OnSurface, StationStatus};
 
-/// What a curve is drawn in.
+/// What a line or a letter is drawn in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ink {
     /// The one colour.
@@ -16,6 +17,8 @@ pub enum Ink {
     Text,
     /// That of what stands back.
     Weak,
+    /// That of axes.
+    Line,
 }
 
 /// A curve.
@@ -56,9 +59,18 @@ impl Axis {
     }
 
     /// Where a number is, 0 to 1.
-    pub(super) fn part(&self, value: f64) -> f64 {
+    fn part(&self, value: f64) -> f64 {
         ((value - self.range[0]) / (self.range[1] - self.range[0]).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
     }
+}
+
+/// Curves over one pair of axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// Up.
+    pub y: Axis,
+    /// The curves, the first below the others.
+    pub curves: Vec<Curve>,
 }
 
 /// A plot.
@@ -66,12 +78,68 @@ impl Axis {
 pub struct Plot {
     /// What it shows.
     pub title: String,
-    /// Across.
+    /// Across, the same for all panels.
     pub x: Axis,
-    /// Up.
-    pub y: Axis,
-    /// The curves, the first below the others.
-    pub curves: Vec<Curve>,
+    /// From above to below; those after the first are half as high.
+    pub panels: Vec<Panel>,
+}
+
+/// Width of a drawn plot, and the size of its letters.
+pub(super) const WIDE: f64 = 420.0;
+pub(super) const LETTERS: f64 = 11.5;
+/// Where its axes begin and end.
+const LEFT: f64 = 48.0;
+const RIGHT: f64 = 412.0;
+/// Heights of the first panel and of the others, of the line above each, and of marks and label of the axis across.
+const PANEL: f64 = 96.0;
+const LOWER: f64 = 46.0;
+const HEAD: f64 = 20.0;
+const FOOT: f64 = 38.0;
+
+/// What a plot is drawn of, in a picture that is [`WIDE`], from its upper left corner.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Mark {
+    /// A line through points.
+    Line { points: Vec<[f64; 2]>, ink: Ink, is_dashed: bool },
+    /// Letters on a base line, of which the part `pull` is left of the place: 0 to begin there, 1 to end there.
+    Text { at: [f64; 2], pull: f64, text: String, ink: Ink },
+}
+
+impl Plot {
+    /// Height of the drawn plot.
+    pub(super) fn height(&self) -> f64 {
+        HEAD + PANEL + (self.panels.len().max(1) - 1) as f64 * (HEAD + LOWER) + FOOT
+    }
+
+    /// What it is drawn of, what lies below first.
+    pub(super) fn drawn(&self) -> Vec<Mark> {
+        let mut marks = Vec::new();
+        let x = |value: f64| LEFT + (RIGHT - LEFT) * self.x.part(value);
+        let text = |at: [f64; 2], pull: f64, text: &str| Mark::Text { at, pull, text: text.to_owned(), ink: Ink::Weak };
+        let mut bottom = 0.0;
+        for (i, panel) in self.panels.iter().enumerate() {
+            let top = bottom + HEAD;
+            bottom = top + if i == 0 { PANEL } else { LOWER };
+            let y = |value: f64| bottom - (bottom - top) * panel.y.part(value);
+            let axes = vec![[LEFT, top], [LEFT, bottom], [RIGHT, bottom]];
+            marks.push(Mark::Line { points: axes, ink: Ink::Line, is_dashed: false });
+            marks.extend(panel.y.marks.iter().map(|(at, name)| text([LEFT - 6.0, y(*at) + 4.0], 1.0, name)));
+            marks.push(text([2.0, top - 7.0], 0.0, &panel.y.label));
+            let mut legend = RIGHT;
+            for Curve { name, points, ink, is_dashed } in &panel.curves {
+                let points = points.iter().map(|&[a, b]| [x(a), y(b)]).collect();
+                marks.push(Mark::Line { points, ink: *ink, is_dashed: *is_dashed });
+                if !name.is_empty() {
+                    marks.push(Mark::Text { at: [legend, top - 7.0], pull: 1.0, text: name.clone(), ink: *ink });
+                    // The letters of a browser may be wider.
+                    legend -= 1.1 * f64::from(width(&encoded(name), LETTERS as f32, false)) + 8.0;
+                }
+            }
+        }
+        marks.extend(self.x.marks.iter().map(|(at, name)| text([x(*at), bottom + 14.0], 0.5, name)));
+        marks.push(text([f64::midpoint(LEFT, RIGHT), bottom + 32.0], 0.5, &self.x.label));
+        marks
+    }
 }
 
 /// What is shown of the eigenvalues, as powers of ten.
@@ -98,45 +166,77 @@ pub(super) fn response(smoothing: &Smoothing, found: Option<&SmoothingResponse>)
     Some(Plot {
         title: say!("report-response"),
         x: Axis { label, range: RANGE, marks },
-        y: Axis { label: say!("report-left"), range: [-0.1, 1.15], marks: percent },
-        curves: vec![
-            Curve {
-                name: say!("report-pass-band"),
-                points: vec![[band, -0.1], [band, 1.15]],
-                ink: Ink::Weak,
-                is_dashed: true,
-            },
-            Curve { name: say!("report-left-curve"), points: curve, ink: Ink::Accent, is_dashed: false },
-        ],
+        panels: vec![Panel {
+            y: Axis { label: say!("report-left"), range: [-0.1, 1.15], marks: percent },
+            curves: vec![
+                Curve {
+                    name: say!("report-pass-band"),
+                    points: vec![[band, -0.1], [band, 1.15]],
+                    ink: Ink::Weak,
+                    is_dashed: true,
+                },
+                Curve { name: say!("report-left-curve"), points: curve, ink: Ink::Accent, is_dashed: false },
+            ],
+        }],
     })
 }
 
-/// The radius along a branch on all surfaces; `None` where none is known.
-pub(super) fn radius(branch: &BranchCalibre) -> Option<Plot> {
-    let surfaces = [
-        (say!("vessels-as-opened"), &branch.opened, Ink::Weak),
-        (say!("vessels-smoothed"), &branch.smoothed, Ink::Text),
-        (say!("vessels-reduced"), &branch.reduced, Ink::Accent),
-    ];
-    let curves: Vec<Curve> = surfaces.into_iter().flat_map(|(name, of, ink)| pieces(branch, of, &name, ink)).collect();
-    let all = || curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]);
-    let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
+/// The radius along a branch on all surfaces, and below it by how much it is another than as opened, where curves of the
+/// radius lie on each other; `None` where none is known.
+pub(super) fn radius(branch: &BranchCalibre, tolerance_percent: f64) -> Option<Plot> {
+    let smoothed = (say!("vessels-smoothed"), &branch.smoothed, Ink::Text);
+    let reduced = (say!("vessels-reduced"), &branch.reduced, Ink::Accent);
+    let opened = (say!("vessels-as-opened"), &branch.opened, Ink::Weak);
+    let radii = [opened, smoothed.clone(), reduced.clone()];
+    let curves: Vec<Curve> =
+        radii.into_iter().flat_map(|(name, of, ink)| pieces(branch, &of.radii_mm, &name, ink)).collect();
+    let (low, high) = range(&curves)?;
     let spare = (0.1 * high).max(1e-3);
-    low.is_finite().then(|| Plot {
-        title: say!("vessels-radius-along", name = tell(&branch.label())),
-        x: Axis::round(say!("vessels-along"), [0.0, branch.length_mm.max(1e-3)]),
-        y: Axis::round(say!("vessels-radius"), [(low - spare).max(0.0), high + spare]),
-        curves,
-    })
+    let x = Axis::round(say!("vessels-along"), [0.0, branch.length_mm.max(1e-3)]);
+    let y = Axis::round(say!("vessels-radius"), [(low - spare).max(0.0), high + spare]);
+    let mut panels = vec![Panel { y, curves }];
+    panels.extend(change(branch, [smoothed, reduced], x.range, tolerance_percent));
+    Some(Plot { title: say!("vessels-radius-along", name = tell(&branch.label())), x, panels })
 }
 
-/// A curve for each stretch that is measured; the first has the name.
-fn pieces(branch: &BranchCalibre, of: &OnSurface, name: &str, ink: Ink) -> Vec<Curve> {
-    let point = |i: usize| {
-        let is_vessel = matches!(branch.standings[i], StationStatus::Counts | StationStatus::Thin);
-        Some([f64::from(branch.abscissas_mm[i]), f64::from(of.radii_mm[i].filter(|_| is_vessel)?)])
+/// The change of the radius from the surface as opened, in percent, between the bounds that are allowed; `None` where
+/// none is known.
+fn change(
+    branch: &BranchCalibre,
+    surfaces: [(String, &OnSurface, Ink); 2],
+    along: [f64; 2],
+    tolerance_percent: f64,
+) -> Option<Panel> {
+    let changes =
+        surfaces.into_iter().flat_map(|(_, of, ink)| pieces(branch, &of.changes_percent, "", ink)).collect::<Vec<_>>();
+    let (low, high) = range(&changes)?;
+    let bound = |name: String, at: f64| Curve {
+        name,
+        points: along.map(|x| [x, at]).to_vec(),
+        ink: Ink::Weak,
+        is_dashed: true,
     };
-    let points: Vec<Option<[f64; 2]>> = (0..branch.standings.len()).map(point).collect();
+    let allowed = bound(say!("report-change-allowed", percent = exact(tolerance_percent)), tolerance_percent);
+    let mut curves = vec![allowed, bound(String::new(), -tolerance_percent)];
+    curves.extend(changes);
+    let most = 1.2 * tolerance_percent.max(high).max(-low).max(0.1);
+    Some(Panel { y: Axis::round(say!("report-change"), [-most, most]), curves })
+}
+
+/// The least and the largest of what goes up; `None` of no points.
+fn range(curves: &[Curve]) -> Option<(f64, f64)> {
+    let all = || curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]);
+    let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
+    low.is_finite().then_some((low, high))
+}
+
+/// A curve for each stretch where the vessel has values; the first has the name.
+fn pieces(branch: &BranchCalibre, values: &[Option<f32>], name: &str, ink: Ink) -> Vec<Curve> {
+    let point = |(i, value): (usize, &Option<f32>)| {
+        let is_vessel = matches!(branch.standings[i], StationStatus::Counts | StationStatus::Thin);
+        Some([f64::from(branch.abscissas_mm[i]), f64::from(value.filter(|_| is_vessel)?)])
+    };
+    let points: Vec<Option<[f64; 2]>> = values.iter().enumerate().map(point).collect();
     let runs = points.chunk_by(|a, b| a.is_some() == b.is_some()).filter(|run| run[0].is_some() && run.len() > 1);
     let curve = |(i, run): (usize, &[Option<[f64; 2]>])| Curve {
         name: if i == 0 { name.to_owned() } else { String::new() },
@@ -145,4 +245,49 @@ fn pieces(branch: &BranchCalibre, of: &OnSurface, name: &str, ink: Ink) -> Vec<C
         is_dashed: false,
     };
     runs.enumerate().map(curve).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::TriMesh;
+    use crate::phantom::{Sample, generate};
+    use crate::pipeline::report::Report;
+    use crate::pipeline::run::Pipeline;
+    use crate::pipeline::settings::{Settings, Target};
+
+    fn branches(mesh: TriMesh) -> Vec<BranchCalibre> {
+        let settings = Settings { target: Target::Reduction(900), ..Settings::default() };
+        let mut pipeline = Pipeline::new(mesh.into(), settings).with_certificate();
+        pipeline.finish().unwrap();
+        Report::new("a", &pipeline).unwrap().branches.unwrap()
+    }
+
+    #[test]
+    fn the_change_that_is_drawn_is_that_of_the_numbers_and_stands_below_on_the_same_axis() {
+        let branches = branches(generate(Sample::Aorta, 10_000).unwrap());
+        let branch = branches.iter().max_by_key(|branch| branch.stations_counted).unwrap();
+        let plot = radius(branch, 2.0).unwrap();
+        let [_, change] = &plot.panels[..] else { panic!("{plot:?}") };
+        let of = |ink: Ink| {
+            let curves = change.curves.iter().filter(move |curve| curve.ink == ink);
+            curves.flat_map(|curve| &curve.points).map(|point| point[1]).collect::<Vec<_>>()
+        };
+        for (surface, ink) in [(&branch.smoothed, Ink::Text), (&branch.reduced, Ink::Accent)] {
+            let most = of(ink).into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap();
+            assert!((most - surface.largest_change.unwrap().percent).abs() < 1e-4, "{most}");
+            let drawn = of(ink).into_iter().map(|percent| percent as f32);
+            let known = surface.changes_percent.iter().flatten().copied();
+            assert!(drawn.eq(known), "every number, and no other");
+        }
+        assert_eq!(of(Ink::Weak), [2.0, 2.0, -2.0, -2.0]);
+        // Below the radii, from where to where they go.
+        let lines = plot.drawn().into_iter().filter_map(|mark| match mark {
+            Mark::Line { points, ink: Ink::Line, .. } => Some(points),
+            _ => None,
+        });
+        let [above, below] = &lines.collect::<Vec<_>>()[..] else { panic!("two pairs of axes") };
+        let across = |axes: &[[f64; 2]]| [axes[1][0], axes[2][0]];
+        assert!(across(above) == across(below) && below[0][1] > above[1][1]);
+    }
 }

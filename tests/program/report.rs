@@ -61,10 +61,20 @@ fn the_pdf_of_a_stenosis_can_be_searched_and_names_no_file() {
     let degree = text.split(" % narrower").next().unwrap().rsplit(' ').next().unwrap().parse::<f64>().unwrap();
     assert!((degree - 70.0).abs() <= 2.0, "{degree}");
     assert!(std::fs::metadata(&out).unwrap().len() < 60_000);
-    // The same again gives the same.
-    let again = folder.file("b.pdf");
+    // The same again gives the same, and the date is that of the day.
+    let today = || lumen::report::today();
+    let (before, again) = (today(), folder.file("b.pdf"));
     succeed(&["report", &file, "-o", &again, "--title", "Case 12", "--no-pictures", "--reduction", "60"]);
-    assert_eq!(std::fs::read(&out).unwrap(), std::fs::read(&again).unwrap());
+    assert!([before, today()].iter().any(|day| flat(&text_of(&again).join(" ")).contains(&format!("Date {day}"))));
+    let dated = ["c.pdf", "d.pdf"].map(|name| {
+        let out = folder.file(name);
+        succeed(&["report", &file, "-o", &out, "--no-pictures", "--reduction", "60", "--date", "2026-02-28"]);
+        assert!(flat(&text_of(&out).join(" ")).contains("Date 2026-02-28"));
+        std::fs::read(&out).unwrap()
+    });
+    assert_eq!(dated[0], dated[1]);
+    let refused = lumen(&["report", &file, "-o", &out, "--date", "2026-02-29"]);
+    assert_eq!(refused.status.code(), Some(2));
 }
 
 #[test]
@@ -80,6 +90,17 @@ fn names_are_text_in_the_web_page_and_nothing_comes_from_elsewhere() {
         assert!(!page.to_lowercase().contains(foreign), "{foreign}");
     }
     assert!(page.contains("Not for clinical decisions.") && page.contains("<svg"));
+    // So are case and comment, whose lines stay lines; a PDF has a question mark for what its font lacks.
+    let pdf = folder.file("a.pdf");
+    for out in [&out, &pdf] {
+        let said = ["--case", "<b>12</b>", "--comment", "Größe: 血\n\n<i>\"so\"</i>"];
+        succeed(&[&["report", &file, "-o", out, "--no-pictures", "--reduction", "60"][..], &said].concat());
+    }
+    let page = std::fs::read_to_string(&out).unwrap();
+    assert!(page.contains("<td>&lt;b&gt;12&lt;/b&gt;</td>") && !page.contains("<b>"));
+    assert!(page.contains("<td>Größe: 血\n\n&lt;i&gt;&quot;so&quot;&lt;/i&gt;</td>") && !page.contains("<i>"));
+    let text = flat(&text_of(&pdf).join(" "));
+    assert!(text.contains("Case <b>12</b> Comment Größe: ? <i>\"so\"</i>"), "{text}");
 }
 
 #[test]

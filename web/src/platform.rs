@@ -284,6 +284,11 @@ impl Storage for Browser {
 }
 
 impl Screen for Browser {
+    fn today(&self) -> String {
+        let now = js_sys::Date::new_0();
+        format!("{:04}-{:02}-{:02}", now.get_full_year(), now.get_month() + 1, now.get_date())
+    }
+
     fn has_attention(&self) -> bool {
         let document = web_sys::window().and_then(|window| window.document());
         // Where it cannot be told, eframe's own word counts.

@@ -6,6 +6,7 @@ use super::LumenApp;
 use crate::app::action::Action;
 use crate::app::keys::{self, Keys};
 use crate::app::mode::{Acting, Beside, Entry, Layer, Mode, Panel};
+use crate::app::record::Sight;
 use crate::app::sharing::Sharing;
 use crate::app::sheets::{self, Sheet};
 use crate::app::views::Spot;
@@ -84,8 +85,9 @@ impl LumenApp {
         left
     }
 
-    /// Another surface was opened: the panels forget the one before.
+    /// Another surface was opened: panels and reports forget the one before.
     pub(super) fn leave_surface(&mut self, ctx: &Context) {
+        self.record.leave_surface();
         let then = self.change_panels(ctx, |panel, acting| panel.leave_surface(acting));
         self.act_on_all(then, ctx);
     }
@@ -176,7 +178,16 @@ impl LumenApp {
             Action::SaveSettings => Sharing::save(state, &mut *self.platform, ctx),
             Action::CopyLink => Sharing::copy_link(state, &*self.platform, ctx),
             Action::Record(action) => {
-                self.record.act(action, state, &self.views, theme::style(&ctx.global_style().visuals));
+                if action == record::Action::Describe {
+                    self.sheet = Some(Sheet::Report);
+                }
+                let sight = Sight {
+                    views: &self.views,
+                    style: theme::style(&ctx.global_style().visuals),
+                    measures: self.panels.measure.shown(state),
+                    today: self.platform.today(),
+                };
+                self.record.act(action, state, &sight);
             }
             Action::KeepSurface(keeps) => self.recovery.keep_surfaces(keeps, state, &mut *self.platform),
             Action::Forget => {

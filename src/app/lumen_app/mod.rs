@@ -166,7 +166,7 @@ impl LumenApp {
         if self.health.take_full() {
             self.views.refuse(self.state.document.as_ref().map(|document| document.revision));
             self.panels.filling_mut().into_iter().for_each(Filling::refuse);
-            self.record.act(record::Action::Cancel, &mut self.state, &self.views, crate::render::Style::LIGHT);
+            self.record.cancel(&mut self.state);
             self.state.warn(&NO_MEMORY.say());
         }
     }
@@ -312,8 +312,12 @@ impl eframe::App for LumenApp {
         let gamepad = self.platform.gamepad();
         self.panels.trial.trial.follow_hand(&ctx, keys, gamepad, self.platform.trial());
         if let Some(sheet) = self.sheet {
-            let is_done = sheets::show(ui, sheet, &self.key_lines());
-            if is_done || keys::pressed(ui, Modifiers::NONE, Key::F1) {
+            let mut asked = None;
+            let lines = self.key_lines();
+            let is_done = sheets::show(ui, sheet, &lines, &mut |ui| asked = self.record.sheet(ui));
+            let is_saved = matches!(asked, Some(record::Action::Report(_)));
+            self.act_on_all(asked.map(Action::Record), &ctx);
+            if is_done || is_saved || keys::pressed(ui, Modifiers::NONE, Key::F1) {
                 self.sheet = None;
             }
         }

@@ -15,7 +15,9 @@ mod subject;
 mod take;
 mod tool;
 
-use egui::{Modifiers, Pos2, ScrollArea, Ui};
+use std::sync::Arc;
+
+use egui::{Modifiers, Pos2, Rect, ScrollArea, Ui};
 
 pub use self::action::Action;
 pub use self::clip::{Across, Clip};
@@ -29,6 +31,7 @@ use super::state::State;
 use crate::language::Key;
 use crate::mesh::{Ball, Vec3};
 use crate::render::Camera;
+use crate::sharing::measures::Measure;
 
 /// What a user is about to measure. The clip plane and the marks of the measures stay in the views when the panel is
 /// closed; the tool is in hand only while it is open.
@@ -84,6 +87,11 @@ impl Measuring {
         *self = Self { marks: self.marks, ..Self::default() };
     }
 
+    /// The measures that the views show.
+    pub(super) fn shown(&self, state: &State) -> Arc<Vec<Measure>> {
+        if self.marks { state.measures.clone() } else { Arc::default() }
+    }
+
     /// Whether clicks in the views are for a tool, while the panel is open.
     pub(super) fn has_tool(&self) -> bool {
         self.tool.is_some()
@@ -105,7 +113,7 @@ impl Measuring {
             Action::Take(tool) => self.take_up(tool),
             Action::Place(picked) => self.place(picked, state),
             Action::Rename(i, name) => {
-                let measures = std::sync::Arc::make_mut(&mut state.measures);
+                let measures = Arc::make_mut(&mut state.measures);
                 if let Some(measure) = measures.get_mut(i) {
                     measure.name = name.chars().take(crate::sharing::measures::LONGEST_NAME).collect();
                 }
@@ -114,7 +122,7 @@ impl Measuring {
                 // One step to undo, whatever was done before it.
                 state.record();
                 if i < state.measures.len() {
-                    std::sync::Arc::make_mut(&mut state.measures).remove(i);
+                    Arc::make_mut(&mut state.measures).remove(i);
                 }
                 self.chosen = None;
             }
@@ -146,12 +154,17 @@ impl Measuring {
         match self.measured(tool, &places, picked.is_opened, state) {
             Ok(measure) => {
                 state.record();
-                std::sync::Arc::make_mut(&mut state.measures).push(measure);
+                Arc::make_mut(&mut state.measures).push(measure);
                 self.chosen = Some(state.measures.len() - 1);
             }
             Err(why) => self.why = Some(why),
         }
     }
+}
+
+/// Draws measures over a picture that is seen by `camera`, as over a view.
+pub(super) fn draw(ui: &Ui, rect: Rect, camera: &Camera, measures: &[Measure]) {
+    marks::show(&canvas::Canvas::new(ui, rect, rect, camera), measures, None);
 }
 
 const TOGGLE: Ask = Ask::Measure(Action::Toggle);

@@ -1,9 +1,12 @@
-//! The window and its user: attention, pointer, motion, the address of the page, languages.
+//! The window and its user: the day, attention, pointer, motion, the address of the page, languages.
 
 use crate::language::Language;
 
 /// The window, and how it is used.
 pub trait Screen {
+    /// The day by its clock and time zone, as ISO 8601 writes it: 2026-11-26.
+    fn today(&self) -> String;
+
     /// Whether keys that are let go will be heard of: a page that is seen beside the window in use hears none. The
     /// desktop is told by its window.
     fn has_attention(&self) -> bool {

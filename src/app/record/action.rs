@@ -5,6 +5,8 @@ use crate::report::ReportFormat;
 /// What can be asked of reports and pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
+    /// Open the sheet of the report.
+    Describe,
     /// Save a report.
     Report(ReportFormat),
     /// Whether it bears the name of the file.

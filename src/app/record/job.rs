@@ -9,6 +9,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use glam::Quat;
 use thiserror::Error;
 
+use super::Sight;
 use super::action::Chosen;
 use crate::app::arrays;
 use crate::app::deviating::Deviating;
@@ -20,13 +21,13 @@ use crate::app::portrait::{
 };
 use crate::app::scene::{colour_map, coloured, scalars};
 use crate::app::state::State;
-use crate::app::views::{Views, legend};
+use crate::app::views::legend;
 use crate::engine::{Command, Frame, Link};
 use crate::io::Axes;
 use crate::mesh::TriMesh;
 use crate::pipeline::settings::Keep;
 use crate::render::{Camera, Look, Picture, PictureError, Style, SurfaceError};
-use crate::report::{Pixels, ReportFormat};
+use crate::report::{Heading, Pixels, ReportFormat};
 use crate::say;
 
 /// Pixels of the longer side of a picture, once.
@@ -61,7 +62,7 @@ struct Shot {
 enum What {
     Report {
         format: ReportFormat,
-        title: Option<String>,
+        heading: Heading,
         axes: Axes,
     },
     /// Of which the first of two is on white, the second on black.
@@ -103,7 +104,8 @@ impl Job {
         document: &Document,
         keep: Keep,
         format: ReportFormat,
-        chosen: Chosen,
+        heading: Heading,
+        sight: &Sight<'_>,
     ) -> Result<Self, JobError> {
         let seen = camera(&document.bounds(keep), document.import.axes, SIZE[0] as f32 / SIZE[1] as f32);
         let colours = if document.change_by_node().is_some() {
@@ -119,14 +121,13 @@ impl Job {
                 Shown::Reduced | Shown::Wireframe => (level.clone(), None),
                 Shown::Colours => (level.clone(), scalars(document, colours).map(|scalars| scalars.as_ref().into())),
             };
-            let pose = shown.pose(seen, map, document.import.axes);
+            let pose = shown.pose(seen, map, document.import.axes, &sight.measures);
             let meaning = map.as_ref().map_or(String::new(), |map| meaning(map, colours == Colours::Calibre));
             Shot { seat: Some(seat), pose, caption: shown.caption(&meaning) }
         };
         let shots =
             Shown::ALL.into_iter().filter(|&shown| shown != Shown::Colours || map.is_some()).map(shot).collect();
-        let title = chosen.names_file.then(|| document.title().into_owned());
-        let what = What::Report { format, title, axes: document.import.axes };
+        let what = What::Report { format, heading, axes: document.import.axes };
         Self::new(device, what, format!("{}-report.{}", document.stem(), format.extension()), shots)
     }
 
@@ -134,12 +135,11 @@ impl Job {
     pub(super) fn picture(
         device: &egui_wgpu::RenderState,
         document: &Document,
-        views: &Views,
-        style: Style,
+        sight: &Sight<'_>,
         scale: u32,
         chosen: Chosen,
     ) -> Result<Self, JobError> {
-        let (seat, pose) = as_seen(document, views, style, size(views.aspect(), PICTURE * scale), scale as f32);
+        let (seat, pose) = as_seen(document, sight, size(sight.views.aspect(), PICTURE * scale), scale as f32);
         let grounds = if chosen.is_clear { &[Behind::White, Behind::Black][..] } else { &[Behind::Ground] };
         let mut seat = Some(seat);
         let shot = |&behind: &Behind| Shot {
@@ -156,11 +156,10 @@ impl Job {
         device: &egui_wgpu::RenderState,
         document: &Document,
         keep: Keep,
-        views: &Views,
-        style: Style,
+        sight: &Sight<'_>,
     ) -> Result<Self, JobError> {
-        let size = size(views.aspect(), TURNTABLE);
-        let (seat, pose) = as_seen(document, views, style, size, 1.0);
+        let size = size(sight.views.aspect(), TURNTABLE);
+        let (seat, pose) = as_seen(document, sight, size, 1.0);
         let turned = |i: u32| {
             let turn = Quat::from_rotation_z(TAU * i as f32 / FRAMES as f32);
             let mut camera = Camera { rotation: (turn * pose.camera.rotation).normalize(), ..pose.camera };
@@ -243,11 +242,11 @@ impl Job {
     fn complete(&mut self, state: &mut State, link: &mut dyn Link) {
         let taken = std::mem::take(&mut self.taken);
         match &self.what {
-            What::Report { format, title, axes } => {
+            What::Report { format, heading, axes } => {
                 let pictures = taken.into_iter().map(|(caption, picture)| frame(caption, pixels(picture))).collect();
-                let (name, title) = (self.name.clone(), title.clone());
+                let (name, heading) = (self.name.clone(), heading.clone());
                 let measures = state.measures.to_vec();
-                let command = Command::WriteReport { name, format: *format, title, axes: *axes, measures, pictures };
+                let command = Command::WriteReport { name, format: *format, heading, axes: *axes, measures, pictures };
                 state.ask_for_file(&self.name, command, link);
             }
             What::Picture { is_clear } => {
@@ -286,7 +285,8 @@ fn size(aspect: f32, longer: u32) -> [u32; 2] {
 }
 
 /// The level as the first view shows it, with `scale` pixels to a point.
-fn as_seen(document: &Document, views: &Views, style: Style, size: [u32; 2], scale: f32) -> (Seat, Pose) {
+fn as_seen(document: &Document, sight: &Sight<'_>, size: [u32; 2], scale: f32) -> (Seat, Pose) {
+    let (views, style) = (sight.views, sight.style);
     let colours = views.options.colours;
     let scalars: Option<Arc<[f32]>> = match colours {
         Colours::None => None,
@@ -298,7 +298,8 @@ fn as_seen(document: &Document, views: &Views, style: Style, size: [u32; 2], sca
     let array = arrays::chosen(document, colours).filter(|_| scalars.is_some());
     let map = style.map.filter(|_| array.is_none() && !style.labels);
     let alone = Alone { legend: map.map(|map| legend(map, colours)), array: array.cloned() };
-    let marks = Marks { axes: document.import.axes, scale, theme, alone: Some(alone) };
+    let measures = sight.measures.clone();
+    let marks = Marks { axes: document.import.axes, scale, theme, measures, alone: Some(alone) };
     let style = Style { raking: views.options.raking, occlusion: views.options.occlusion, ..style };
     let pose = Pose { camera: views.camera, size, look, style, behind: Behind::Ground, marks };
     ((level(document), scalars), pose)

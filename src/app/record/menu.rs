@@ -1,9 +1,11 @@
-//! Reports and pictures in the menu of what can be saved.
+//! Reports and pictures in the menu of what can be saved, and the sheet of the report.
 
-use egui::Ui;
+use egui::{Role, TextEdit, Ui};
 
-use super::{Action, Chosen};
+use super::{Action, Chosen, Said};
+use crate::app::assist::{heading, name};
 use crate::app::menus;
+use crate::app::row::wrapped;
 use crate::report::ReportFormat;
 use crate::say;
 
@@ -11,17 +13,8 @@ use crate::say;
 pub(in crate::app) fn menu(ui: &mut Ui, mut chosen: Chosen, is_measured: bool) -> Option<Action> {
     let mut asked = None;
     ui.add_enabled_ui(is_measured, |ui| {
-        for (text, format, help) in [
-            (say!("record-report-pdf"), ReportFormat::Pdf, say!("record-report-pdf-help")),
-            (say!("record-report-html"), ReportFormat::Html, say!("record-report-html-help")),
-        ] {
-            if ui.button(text).on_hover_text(help).clicked() {
-                asked = Some(Action::Report(format));
-            }
-        }
-        let names = ui.checkbox(&mut chosen.names_file, say!("record-name-file"));
-        if names.on_hover_text(say!("record-name-file-help")).changed() {
-            asked = Some(Action::NameFile(chosen.names_file));
+        if ui.button(say!("record-report")).on_hover_text(say!("record-report-help")).clicked() {
+            asked = Some(Action::Describe);
         }
     });
     menus::menu(ui, &say!("record-picture"), &mut |ui| {
@@ -39,5 +32,45 @@ pub(in crate::app) fn menu(ui: &mut Ui, mut chosen: Chosen, is_measured: bool) -
     if ui.button(say!("record-turntable")).on_hover_text(say!("record-turntable-help")).clicked() {
         asked = Some(Action::Turntable);
     }
+    asked
+}
+
+/// Most letters of a case and of a comment.
+const LONGEST: [usize; 2] = [120, 2000];
+
+/// Shows the sheet of the report. Returns what was clicked.
+pub(super) fn sheet(ui: &mut Ui, said: &mut Said, mut chosen: Chosen) -> Option<Action> {
+    let mut asked = None;
+    heading(ui, &say!("record-drawing-report"));
+    ui.add_space(8.0);
+    let Said { surface, case, comment } = said;
+    let fields = [
+        (say!("report-case"), TextEdit::singleline(case), LONGEST[0]),
+        (say!("report-comment"), TextEdit::multiline(comment).desired_rows(4), LONGEST[1]),
+    ];
+    for (i, (label, field, longest)) in fields.into_iter().enumerate() {
+        ui.label(&label);
+        // Of each surface fields of their own: undo in a field brings back nothing of another.
+        let field = field.id_salt((*surface, i)).desired_width(f32::INFINITY).char_limit(longest);
+        name(&ui.add(field), if i == 0 { Role::TextInput } else { Role::MultilineTextInput }, &label);
+        ui.add_space(4.0);
+    }
+    wrapped(ui, &say!("record-said-kept"), |text| text.small().weak());
+    ui.add_space(4.0);
+    let names = ui.checkbox(&mut chosen.names_file, say!("record-name-file"));
+    if names.on_hover_text(say!("record-name-file-help")).changed() {
+        asked = Some(Action::NameFile(chosen.names_file));
+    }
+    ui.add_space(8.0);
+    ui.horizontal_wrapped(|ui| {
+        for (text, format, help) in [
+            (say!("record-report-pdf"), ReportFormat::Pdf, say!("record-report-pdf-help")),
+            (say!("record-report-html"), ReportFormat::Html, say!("record-report-html-help")),
+        ] {
+            if ui.button(text).on_hover_text(help).clicked() {
+                asked = Some(Action::Report(format));
+            }
+        }
+    });
     asked
 }

@@ -5,11 +5,18 @@ pub(super) mod action;
 mod job;
 mod menu;
 
+use std::sync::Arc;
+
+use egui::Ui;
+
 use super::document::Document;
 use super::state::State;
 use super::views::Views;
 use crate::engine::Link;
+use crate::render::Style;
+use crate::report::Heading;
 use crate::say;
+use crate::sharing::measures::Measure;
 
 pub use action::Action;
 pub(super) use action::Chosen;
@@ -22,6 +29,27 @@ pub(super) struct Record {
     device: Option<egui_wgpu::RenderState>,
     job: Option<Job>,
     chosen: Chosen,
+    said: Said,
+}
+
+/// What a user says of the surface that is open, for its reports. It stands in the sheet until another surface is opened, so
+/// that a second report need not be written again, and is kept nowhere else: it may name a patient.
+#[derive(Default)]
+struct Said {
+    /// Which surface it is of, counted from the first.
+    surface: u64,
+    case: String,
+    comment: String,
+}
+
+/// What can be seen, and when.
+pub(super) struct Sight<'a> {
+    pub(super) views: &'a Views,
+    pub(super) style: Style,
+    /// The measures that are drawn in the views.
+    pub(super) measures: Arc<Vec<Measure>>,
+    /// Today, as ISO 8601 writes it.
+    pub(super) today: String,
 }
 
 impl Record {
@@ -41,9 +69,21 @@ impl Record {
         self.job.as_ref().map(Job::progress)
     }
 
+    /// Another surface was opened: what was said of the one before is forgotten.
+    pub(super) fn leave_surface(&mut self) {
+        self.said = Said { surface: self.said.surface + 1, ..Said::default() };
+    }
+
+    /// Shows the sheet of the report. Returns what was clicked.
+    pub(super) fn sheet(&mut self, ui: &mut Ui) -> Option<Action> {
+        menu::sheet(ui, &mut self.said, self.chosen)
+    }
+
     /// Does what is asked for.
-    pub(super) fn act(&mut self, action: Action, state: &mut State, views: &Views, style: crate::render::Style) {
+    pub(super) fn act(&mut self, action: Action, state: &mut State, sight: &Sight<'_>) {
         match action {
+            // The window has the sheet.
+            Action::Describe => {}
             Action::NameFile(names_file) => self.chosen.names_file = names_file,
             Action::Clear(is_clear) => self.chosen.is_clear = is_clear,
             Action::Cancel => self.cancel(state),
@@ -53,7 +93,7 @@ impl Record {
                     state.tell(&say!("record-nothing"));
                     return;
                 };
-                let begun = self.begin(action, state, document, views, style);
+                let begun = self.begin(action, state, document, sight);
                 match begun {
                     Ok(job) => self.job = Some(job),
                     Err(sentence) => state.warn(&sentence),
@@ -62,24 +102,26 @@ impl Record {
         }
     }
 
-    fn begin(
-        &self,
-        action: Action,
-        state: &State,
-        document: &Document,
-        views: &Views,
-        style: crate::render::Style,
-    ) -> Result<Job, String> {
+    fn begin(&self, action: Action, state: &State, document: &Document, sight: &Sight<'_>) -> Result<Job, String> {
         let device = self.device.as_ref().ok_or_else(|| say!("compare-no-device"))?;
         let begun = match action {
-            Action::Report(format) => Job::report(device, document, state.settings.keep, format, self.chosen),
-            Action::Picture(scale) => Job::picture(device, document, views, style, scale, self.chosen),
-            _ => Job::turntable(device, document, state.settings.keep, views, style),
+            Action::Report(format) => {
+                let heading = Heading {
+                    title: self.chosen.names_file.then(|| document.title().into_owned()),
+                    date: sight.today.clone(),
+                    case: self.said.case.clone(),
+                    comment: self.said.comment.clone(),
+                };
+                Job::report(device, document, state.settings.keep, format, heading, sight)
+            }
+            Action::Picture(scale) => Job::picture(device, document, sight, scale, self.chosen),
+            _ => Job::turntable(device, document, state.settings.keep, sight),
         };
         begun.map_err(|error| say!("record-cannot-draw", why = error.to_string()))
     }
 
-    fn cancel(&mut self, state: &mut State) {
+    /// Gives up what is being drawn.
+    pub(super) fn cancel(&mut self, state: &mut State) {
         if let Some(job) = self.job.take() {
             if let Some(name) = job.asked_for() {
                 state.forget_file(name);

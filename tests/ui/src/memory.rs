@@ -280,6 +280,10 @@ impl Storage for MemoryPlatform {
 }
 
 impl Screen for MemoryPlatform {
+    fn today(&self) -> String {
+        "2026-11-26".to_owned()
+    }
+
     fn prefers_less_motion(&self) -> bool {
         !self.memory.borrow().likes_motion
     }

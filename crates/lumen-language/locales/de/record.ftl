@@ -2,12 +2,8 @@
 
 ## Einträge im Menü zum Speichern
 
-record-report-pdf = Bericht (PDF)...
-record-report-pdf-help = Urteil, Zahlen, Einstellungen, Gefäße, Bilder und Kurven, zum Drucken
-record-report-html = Bericht (Webseite)...
-record-report-html-help = Dasselbe in einer Datei für den Browser, die sonst nichts braucht
-record-name-file = Dateiname im Bericht
-record-name-file-help = Sonst steht im Bericht nur die Prüfsumme der Datei: Namen können die von Patienten sein
+record-report = Bericht...
+record-report-help = Eine Seite für die Akten: Urteil, Zahlen, Einstellungen, Gefäße, Bilder und Kurven
 record-picture = Bild (PNG)
 record-pixels = { $count } Pixel...
 record-pixels-help = Die längere Seite des Bildes
@@ -15,6 +11,16 @@ record-clear = Hintergrund transparent
 record-clear-help = Nichts hinter der Oberfläche, um sie über anderes zu legen
 record-turntable = Drehung (APNG)...
 record-turntable-help = Die Oberfläche dreht sich einmal, als bewegtes Bild; die Farben sind die der Ansicht
+
+## Das Blatt des Berichts
+
+record-said-kept = Fall und Bemerkung stehen nur im Bericht. Lumen vergisst sie, sobald eine andere Oberfläche geöffnet wird.
+record-report-pdf = Als PDF speichern...
+record-report-pdf-help = Zum Drucken
+record-report-html = Als Webseite speichern...
+record-report-html-help = Dasselbe in einer Datei für den Browser, die sonst nichts braucht
+record-name-file = Dateiname im Bericht
+record-name-file-help = Sonst steht im Bericht nur die Prüfsumme der Datei: Namen können die von Patienten sein
 
 ## Was gezeichnet wird
 

@@ -3,6 +3,9 @@
 report-title = Gefäßoberfläche
 report-not-clinical = Nicht für klinische Entscheidungen.
 report-page = Seite { $page } von { $count }
+report-date = Datum
+report-case = Fall
+report-comment = Bemerkung
 
 ## Überschriften
 
@@ -106,6 +109,8 @@ report-eigenvalue = Eigenwert
 report-left = Rest
 report-left-curve = Rest
 report-pass-band = Durchlassband
+report-change = Änderung, %
+report-change-allowed = zulässig: ±{ $percent } %
 
 ## Warum es kein Bild gibt
 

@@ -2,12 +2,8 @@
 
 ## Entries of the menu of what can be saved
 
-record-report-pdf = Report (PDF)...
-record-report-pdf-help = Verdict, numbers, settings, vessels, pictures and curves, to print
-record-report-html = Report (web page)...
-record-report-html-help = The same in one file for a browser, which needs nothing else
-record-name-file = Name the file in reports
-record-name-file-help = Otherwise a report has the file's fingerprint alone: names may be those of patients
+record-report = Report...
+record-report-help = A page for the record: verdict, numbers, settings, vessels, pictures and curves
 record-picture = Picture (PNG)
 # The longer side of a picture: 960 pixels...
 record-pixels = { $count } pixels...
@@ -16,6 +12,16 @@ record-clear = Transparent background
 record-clear-help = Nothing behind the surface, to lay it over something else
 record-turntable = Turntable (APNG)...
 record-turntable-help = The surface turning once, as a picture that moves; the colours are those of the view
+
+## The sheet of the report
+
+record-said-kept = Case and comment stand in the report alone. Lumen forgets them when another surface is opened.
+record-report-pdf = Save as PDF...
+record-report-pdf-help = To print
+record-report-html = Save as web page...
+record-report-html-help = The same in one file for a browser, which needs nothing else
+record-name-file = Name the file in reports
+record-name-file-help = Otherwise a report has the file's fingerprint alone: names may be those of patients
 
 ## What is being drawn, before the part of it that is done, in percent: one word
 

@@ -3,6 +3,9 @@
 report-title = Vessel surface
 report-not-clinical = Not for clinical decisions.
 report-page = Page { $page } of { $count }
+report-date = Date
+report-case = Case
+report-comment = Comment
 
 ## Heads of the parts
 
@@ -114,6 +117,8 @@ report-eigenvalue = Eigenvalue
 report-left = Left
 report-left-curve = left
 report-pass-band = pass band
+report-change = Change, %
+report-change-allowed = allowed: ±{ $percent } %
 
 ## Why there is no picture: said after a colon, a full stop follows
 

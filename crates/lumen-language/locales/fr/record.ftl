@@ -2,12 +2,8 @@
 
 ## Entrées du menu d'enregistrement
 
-record-report-pdf = Rapport (PDF)...
-record-report-pdf-help = Verdict, valeurs, réglages, vaisseaux, images et courbes, à imprimer
-record-report-html = Rapport (page web)...
-record-report-html-help = La même chose en un fichier pour navigateur, qui n'a besoin de rien d'autre
-record-name-file = Nom du fichier au rapport
-record-name-file-help = Sinon, le rapport ne porte que l'empreinte du fichier : un nom peut être celui d'un patient
+record-report = Rapport...
+record-report-help = Une page pour le dossier : verdict, valeurs, réglages, vaisseaux, images et courbes
 record-picture = Image (PNG)
 record-pixels = { $count } pixels...
 record-pixels-help = Le plus long côté de l'image
@@ -15,6 +11,16 @@ record-clear = Fond transparent
 record-clear-help = Rien derrière la surface, pour la poser sur autre chose
 record-turntable = Rotation (APNG)...
 record-turntable-help = La surface fait un tour, en image animée ; les couleurs sont celles de la vue
+
+## La feuille du rapport
+
+record-said-kept = Cas et remarque ne figurent que dans le rapport. Lumen les oublie dès qu'une autre surface est ouverte.
+record-report-pdf = Enregistrer en PDF...
+record-report-pdf-help = À imprimer
+record-report-html = Enregistrer en page web...
+record-report-html-help = La même chose en un fichier pour navigateur, qui n'a besoin de rien d'autre
+record-name-file = Nom du fichier au rapport
+record-name-file-help = Sinon, le rapport ne porte que l'empreinte du fichier : un nom peut être celui d'un patient
 
 ## Ce qui est en cours de dessin
 

@@ -3,6 +3,9 @@
 report-title = Surface vasculaire
 report-not-clinical = Pas pour des décisions cliniques.
 report-page = Page { $page } sur { $count }
+report-date = Date
+report-case = Cas
+report-comment = Remarque
 
 ## Titres
 
@@ -106,6 +109,8 @@ report-eigenvalue = Valeur propre
 report-left = Reste
 report-left-curve = reste
 report-pass-band = bande passante
+report-change = Variation, %
+report-change-allowed = toléré : ±{ $percent } %
 
 ## Pourquoi il n'y a pas d'image
 

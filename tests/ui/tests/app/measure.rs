@@ -2,6 +2,8 @@
 
 use std::f32::consts::PI;
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2, vec2};
 use egui_kittest::Harness;
@@ -240,17 +242,41 @@ fn measures_are_named_undone_saved_and_closed_with_their_surface() {
     assert!(says(&harness, "belong to another surface"));
 }
 
+/// The pictures of a web page, as RGB.
+fn pictures(page: &str) -> Vec<Vec<u8>> {
+    let decoded = |part: &str| {
+        let png = STANDARD.decode(part.split('"').next().unwrap()).unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        pixels
+    };
+    page.split("data:image/png;base64,").skip(1).map(decoded).collect()
+}
+
 #[test]
-fn the_report_lists_them() {
+fn the_report_lists_them_and_draws_them_on_the_plain_surfaces_where_the_views_do() {
     let (mut harness, memory) = measuring(DESKTOP, "tube.obj", tube(4.0, 60.0, 0.8));
     take(&mut harness, "Ruler");
     click(&mut harness, Vec3::new(0.0, -4.0, 10.0));
     click(&mut harness, Vec3::new(0.0, -4.0, 30.0));
     let value = measures(&harness)[0].value();
-    harness.get_by_role_and_label(Role::Button, "Save").click();
+    let report = |harness: &mut Harness<'_, LumenApp>| {
+        for button in ["Save", "Report...", "Save as web page..."] {
+            harness.get_by_role_and_label(Role::Button, button).click();
+            harness.run_steps(3);
+        }
+        String::from_utf8(offered(harness, &memory).1).unwrap()
+    };
+    let page = report(&mut harness);
+    harness.get_by_role_and_label(Role::CheckBox, "In the views").click();
     harness.run_steps(3);
-    harness.get_by_label("Report (web page)...").click();
-    let page = String::from_utf8(offered(&mut harness, &memory).1).unwrap();
+    let bare = pictures(&report(&mut harness));
+    let differing =
+        |(a, b): (&Vec<u8>, &Vec<u8>)| a.chunks_exact(3).zip(b.chunks_exact(3)).filter(|(a, b)| a != b).count();
+    let drawn: Vec<usize> = pictures(&page).iter().zip(&bare).map(differing).collect();
+    // A line of 20 mm, two dots and a label, on the first two of four.
+    assert!(drawn.len() == 4 && drawn[..2].iter().all(|&count| count > 2000) && drawn[2..] == [0, 0], "{drawn:?}");
     assert!(page.contains("Measured by hand") && page.contains("Ruler 1") && page.contains(&value), "{value}");
 }
 

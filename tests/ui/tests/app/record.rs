@@ -1,11 +1,11 @@
 //! Reports, pictures and turntables from the menu, as others read them.
 
-use egui::Key;
 use egui::accesskit::Role;
+use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, Memory, PHONE, app_in_full, offered, says, settle_wholly};
+use lumen_ui_tests::{DESKTOP, Kept, Memory, PHONE, app_in_full, offered, open, page, says, settle_wholly, tube};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 
@@ -35,21 +35,76 @@ fn the_menu_repeats_the_verdict_and_gives_a_report_in_both_forms() {
         let (mut harness, memory) = opened(size);
         menu(&mut harness);
         assert!(says(&harness, "Safe to simulate on: ") && says(&harness, " keep their calibre to 2 %"));
-        click(&mut harness, "Report (PDF)...");
+        click(&mut harness, "Report...");
+        click(&mut harness, "Save as PDF...");
         let (name, pdf) = offered(&mut harness, &memory);
         assert_eq!(name, "abdominal-aorta-report.pdf");
         let count = |mark: &[u8]| pdf.windows(mark.len()).filter(|part| *part == mark).count();
         assert!(pdf.starts_with(b"%PDF-1.7") && count(b"/Predictor 15") == 4);
         menu(&mut harness);
-        click(&mut harness, "Report (web page)...");
+        click(&mut harness, "Report...");
+        click(&mut harness, "Save as web page...");
         let (name, page) = offered(&mut harness, &memory);
         assert_eq!(name, "abdominal-aorta-report.html");
         let page = String::from_utf8(page).unwrap();
         assert!(page.contains("Not for clinical decisions") && page.contains("Safe to simulate on"));
+        assert!(page.contains("<td>Date</td><td>2026-11-26</td>") && !page.contains("<td>Case</td>"));
         assert_eq!(page.matches("data:image/png;base64,").count(), 4);
         assert!(!["<script", "http:", "https:", "url("].iter().any(|foreign| page.contains(foreign)));
         assert!(!page.contains("Abdominal aorta"), "no name that nobody asked for");
     }
+}
+
+fn write(harness: &mut Harness<'_, LumenApp>, role: Role, field: &str, text: &str) {
+    harness.get_by_role_and_label(role, field).focus();
+    harness.run_steps(2);
+    harness.get_by_role_and_label(role, field).type_text(text);
+    harness.run_steps(3);
+}
+
+fn said(harness: &Harness<'_, LumenApp>) -> [String; 2] {
+    [(Role::TextInput, "Case"), (Role::MultilineTextInput, "Comment")]
+        .map(|(role, field)| harness.get_by_role_and_label(role, field).value().unwrap_or_default())
+}
+
+#[test]
+fn case_and_comment_stand_in_the_report_alone_until_another_surface_is_opened() {
+    let (mut harness, memory) = page(PHONE, Kept::default());
+    settle_wholly(&mut harness);
+    menu(&mut harness);
+    click(&mut harness, "Report...");
+    write(&mut harness, Role::TextInput, "Case", "Case <12> & co");
+    write(&mut harness, Role::MultilineTextInput, "Comment", "Stent planned.\nBring \"B\".");
+    click(&mut harness, "Save as web page...");
+    assert!(!says(&harness, "Comment"), "the sheet is closed");
+    let (_, page) = offered(&mut harness, &memory);
+    let page = String::from_utf8(page).unwrap();
+    for row in ["<td>Case &lt;12&gt; &amp; co</td>", "<td>Stent planned.\nBring &quot;B&quot;.</td>"] {
+        assert!(page.contains(row), "{row} in {page}");
+    }
+    // It can be written again, but nothing else has it.
+    menu(&mut harness);
+    click(&mut harness, "Settings...");
+    let (_, settings) = offered(&mut harness, &memory);
+    harness.run_steps(12);
+    let kept = memory.borrow().kept.clone().unwrap().text.unwrap();
+    for text in [String::from_utf8(settings).unwrap(), kept] {
+        assert!(!["Case", "Stent"].iter().any(|said| text.contains(said)), "{text}");
+    }
+    menu(&mut harness);
+    click(&mut harness, "Report...");
+    assert_eq!(said(&harness), ["Case <12> & co", "Stent planned.\nBring \"B\"."]);
+    click(&mut harness, "Close");
+    open(&mut harness, &memory, "other.obj", tube(5.0, 60.0, 1.0));
+    menu(&mut harness);
+    click(&mut harness, "Report...");
+    assert_eq!(said(&harness), ["", ""]);
+    // Undo in the field brings back nothing of the surface before.
+    harness.get_by_role_and_label(Role::MultilineTextInput, "Comment").focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(said(&harness), ["", ""]);
 }
 
 #[test]
