@@ -35,11 +35,11 @@ pub struct Notice {
 }
 
 impl Notice {
-    /// The sentence, and how often it was told.
+    /// The sentence; of one that stands, how often it was told.
     pub fn said(&self) -> String {
         match self.times {
-            1 => self.text.clone(),
-            times => say!("app-told-again", text = &self.text, count = times),
+            times if times > 1 && self.stands() => say!("app-told-again", text = &self.text, count = times),
+            _ => self.text.clone(),
         }
     }
 
@@ -58,7 +58,7 @@ pub struct Notices {
 }
 
 impl Notices {
-    /// Tells this, once with how often where it is told already. What was done before is told after it for what time is left,
+    /// Tells this, once where it is told already. What was done before is told after it for what time is left,
     /// unless the user is to do something now.
     pub fn tell(&mut self, kind: Kind, text: &str) {
         let same = self.all.iter().position(|notice| notice.text == text);
@@ -160,6 +160,10 @@ mod tests {
             notices.tell(Kind::Wrong, text);
         }
         assert_eq!(told(&notices).as_deref(), Some("a (3 times)"));
+        notices.tell(Kind::Done, "c");
+        notices.tell(Kind::Done, "c");
+        assert_eq!(told(&notices).as_deref(), Some("c"));
+        notices.take_away();
         notices.take_away();
         assert_eq!(told(&notices).as_deref(), Some("b"));
         for i in 0..20 {

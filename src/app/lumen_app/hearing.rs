@@ -63,6 +63,7 @@ impl LumenApp {
                     ctx.request_repaint();
                 }
                 PlatformEvent::Scan { files } => {
+                    self.state.notices.clear();
                     if let Some(link) = self.platform.scans() {
                         self.panels.scan.scans.read(files, link);
                     }
