@@ -365,9 +365,9 @@ fn a_large_surface_is_uploaded_in_parts_and_drawn_once_all_are_there() {
             assert!(drawn_pixels(&picture(&surface, Look::Shaded), WHITE).is_empty(), "part {parts}");
         }
     }
-    // 12 bytes of each node and each triangle, in parts of 2 MiB.
+    // 12 bytes of each node and each triangle, in parts of 1 MiB.
     let bytes = 12 * (mesh.positions.len() + mesh.triangles.len());
-    assert_eq!((parts, bytes.div_ceil(2 << 20)), (6, 6));
+    assert_eq!((parts, bytes.div_ceil(1 << 20)), (11, 11));
     assert_eq!(differing_pixels(&whole, &picture(&surface, Look::Shaded)), 0);
 }
 

@@ -96,8 +96,8 @@ impl GpuSurface {
         mesh: &TriMesh,
         from: usize,
     ) -> Result<Option<usize>, SurfaceError> {
-        /// Bytes of one part: about 8 ms where there is no graphics card.
-        const PART: usize = 2 << 20;
+        /// Bytes of one part: about 4 ms where there is no graphics card.
+        const PART: usize = 1 << 20;
         if from == 0 {
             self.set_positions(device, queue, &[])?;
             self.nodes = mesh.positions.len();
