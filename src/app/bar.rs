@@ -361,7 +361,7 @@ pub(super) fn notice(ui: &Ui, state: &State, views: &Views, is_narrow: bool, wid
     Some(if told.rows.len() == 1 && told.size().x <= room { told } else { lay_out(room) })
 }
 
-/// The bar below, with the [`notice`] as it is laid out.
+/// The bar below, with the [`notice`] as it is laid out. Says whether that can be read: work stands in its place.
 pub(super) fn status(
     ui: &mut Ui,
     state: &State,
@@ -370,7 +370,8 @@ pub(super) fn status(
     drawing: Option<(String, f32)>,
     is_narrow: bool,
     asked: &mut Vec<Action>,
-) {
+) -> bool {
+    let mut is_read = false;
     spoken::announce(ui, state);
     ui.horizontal_centered(|ui| {
         if let Some((what, fraction)) = drawing {
@@ -392,6 +393,7 @@ pub(super) fn status(
         } else if let Some(notice) = notice {
             let response = ui.label(notice.clone());
             name(&response, Role::Label, notice.text());
+            is_read = true;
             let told = state.notices.newest();
             if told.is_some_and(|told| told.kind == Kind::OffersNext)
                 && ui.button(say!("app-open-next")).on_hover_text(say!("app-open-next-help")).clicked()
@@ -419,4 +421,5 @@ pub(super) fn status(
             });
         }
     });
+    is_read
 }

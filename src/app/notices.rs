@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::say;
 
-/// How many that stand are kept.
+/// How many are kept.
 const MOST: usize = 8;
 
 /// What a notice is for.
@@ -35,12 +35,12 @@ pub struct Notice {
 }
 
 impl Notice {
-    /// The sentence; of one that stands, how often it was told.
+    /// The sentence; of what went wrong, how often it did.
     pub fn said(&self) -> String {
-        match self.times {
-            times if times > 1 && self.stands() => say!("app-told-again", text = &self.text, count = times),
-            _ => self.text.clone(),
+        if self.kind == Kind::Wrong && self.times > 1 {
+            return say!("app-told-again", text = &self.text, count = self.times);
         }
+        self.text.clone()
     }
 
     /// Whether it stands until it is taken away.
@@ -160,10 +160,12 @@ mod tests {
             notices.tell(Kind::Wrong, text);
         }
         assert_eq!(told(&notices).as_deref(), Some("a (3 times)"));
-        notices.tell(Kind::Done, "c");
-        notices.tell(Kind::Done, "c");
-        assert_eq!(told(&notices).as_deref(), Some("c"));
-        notices.take_away();
+        for kind in [Kind::Done, Kind::Asks, Kind::OffersNext] {
+            notices.tell(kind, "c");
+            notices.tell(kind, "c");
+            assert_eq!(told(&notices).as_deref(), Some("c"), "{kind:?}");
+            notices.take_away();
+        }
         notices.take_away();
         assert_eq!(told(&notices).as_deref(), Some("b"));
         for i in 0..20 {

@@ -5,13 +5,13 @@ use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::Sender;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread;
 
 use rfd::FileDialog;
 
 use super::scans::{self, Disk};
-use super::speech;
+use super::{lock, speech};
 use crate::app::{OTHER_ENDINGS, Offer, PlatformEvent, Waker};
 use crate::io::Format;
 use crate::say;
@@ -23,12 +23,7 @@ pub(super) struct Next(Arc<Mutex<Vec<PathBuf>>>);
 impl Next {
     /// Takes them, in their order.
     pub(super) fn take(&self) -> Vec<PathBuf> {
-        std::mem::take(&mut self.known())
-    }
-
-    fn known(&self) -> MutexGuard<'_, Vec<PathBuf>> {
-        // A list of paths is whole at any time.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        std::mem::take(&mut lock(&self.0))
     }
 }
 
@@ -44,9 +39,8 @@ impl Reader {
     fn read(&self, paths: &[PathBuf]) {
         let (event, rest) = load(paths, &self.disk);
         send(&self.events, &self.waker, event);
-        let name = |path: &PathBuf| path.file_name().unwrap_or_default().display().to_string();
-        let names: Vec<String> = rest.iter().map(name).collect();
-        *self.next.known() = rest;
+        let names: Vec<String> = rest.iter().map(|path| name(path)).collect();
+        *lock(&self.next.0) = rest;
         if !names.is_empty() {
             send(&self.events, &self.waker, PlatformEvent::More { names });
         }
@@ -95,8 +89,12 @@ fn load(paths: &[PathBuf], disk: &Disk) -> (PlatformEvent, Vec<PathBuf>) {
     (load_one(&first), rest)
 }
 
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).display().to_string()
+}
+
 fn load_one(path: &Path) -> PlatformEvent {
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let name = name(path);
     match fs::read(path) {
         Ok(bytes) => PlatformEvent::Chosen { name, bytes },
         Err(error) => PlatformEvent::Failed { message: say!("app-not-read", name = name, error = error.to_string()) },
@@ -157,7 +155,6 @@ fn write_pair(path: PathBuf, [first, second]: &[Offer; 2]) -> PlatformEvent {
         let _ = fs::remove_file(&beside);
         return failed(&chosen, &error);
     }
-    let name = |path: &Path| path.file_name().unwrap_or_default().display().to_string();
     let folder = chosen.parent().unwrap_or(Path::new("")).display().to_string();
     let message = say!("app-pair-saved", first = name(&chosen), second = name(&beside), folder = folder);
     PlatformEvent::Saved { message }
@@ -206,7 +203,7 @@ mod tests {
 
     #[test]
     fn of_several_surfaces_the_first_is_opened_and_the_others_follow() {
-        let path = |name: &str| PathBuf::from(format!("{}/shared/{name}", "nowhere"));
+        let path = |name: &str| Path::new("nowhere").join(name);
         let paths = ["notes.txt", "a.stl", "b.VTP"].map(path);
         let (first, rest) = load(&paths, &Disk::default());
         assert!(message(first).starts_with("a.stl could not be read"), "a surface is no file of a scan");

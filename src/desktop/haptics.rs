@@ -2,13 +2,13 @@
 //! an [`HapticChannel`].
 
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use super::haply::HaplyPort;
 use super::hid::{Found, HidPort, OpenError, find, open};
-use super::speech;
+use super::{lock, speech};
 use crate::app::{Devices, Listing};
 use crate::engine::trial::HapticChannel;
 use crate::haptics::descriptor::ModelError;
@@ -130,14 +130,14 @@ impl Served {
 
     /// How it is now.
     fn status(&self) -> DeviceStatus {
-        self.status.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        lock(&self.status).clone()
     }
 }
 
 /// Tells why a device is no longer served.
 fn end(told: &Mutex<DeviceStatus>, why: &ServeError) {
     speech::follow();
-    told.lock().unwrap_or_else(PoisonError::into_inner).ended = Some(why.said());
+    lock(told).ended = Some(why.said());
 }
 
 /// Opens the device that has these numbers, this name and these descriptors, where it is plugged in: of one that has two
@@ -304,7 +304,7 @@ impl<P: Port> Server<P> {
             pace(&mut self.port, now, self.service.wanted());
             self.look(now, (now - looked_ms) / 1000.0)?;
             looked_ms = now;
-            *status.lock().unwrap_or_else(PoisonError::into_inner) = self.service.status();
+            *lock(status) = self.service.status();
             thread::sleep(LOOK);
         }
     }

@@ -16,6 +16,7 @@ mod thread;
 mod window;
 
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use self::thread::ThreadLink;
 pub use self::window::{run, run_on};
@@ -63,6 +64,11 @@ impl Desktop {
             waker: self.waker.clone(),
         }
     }
+}
+
+/// What threads share, which is whole at any time: one that panicked has left it so.
+fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Platform for Desktop {

@@ -3,8 +3,9 @@
 use std::fs::{self, File};
 use std::io::{self, Read as _, Seek as _, SeekFrom};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
+use super::lock;
 use super::thread::ThreadLink;
 use crate::app::Waker;
 use crate::engine::scan::{Contents, NamedFile, ScanEngine, ScanLink, Shelf};
@@ -66,28 +67,23 @@ impl Disk {
         let name = path.display().to_string();
         let bytes = fs::metadata(&path);
         let bytes = bytes.map_err(|error| say!("app-scan-not-found", name = &name, error = error.to_string()))?.len();
-        let mut known = self.known();
+        let mut known = lock(&self.0);
         let number = known.next;
         known.next += 1;
         known.paths.push((number, path));
         Ok(NamedFile { name, contents: Contents::Shelved { number, bytes } })
     }
-
-    fn known(&self) -> MutexGuard<'_, Known> {
-        // A list of paths is whole at any time.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
 }
 
 impl Shelf for Disk {
     fn read(&mut self, number: u32, begin: u64, target: &mut [u8]) -> Result<(), String> {
-        let path = self.known().paths.iter().find(|(known, _)| *known == number).map(|(_, path)| path.clone());
+        let path = lock(&self.0).paths.iter().find(|(known, _)| *known == number).map(|(_, path)| path.clone());
         let path = path.ok_or_else(|| say!("app-scan-file-gone"))?;
         fill(&path, begin, target).map_err(|error| say!("app-scan-file-not-read", error = error.to_string()))
     }
 
     fn forget_before(&mut self, number: u32) {
-        self.known().paths.retain(|(known, _)| *known >= number);
+        lock(&self.0).paths.retain(|(known, _)| *known >= number);
     }
 }
 

@@ -1,7 +1,8 @@
 //! What the threads speak: each as the window does.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
+use super::lock;
 use crate::language::{self, Language};
 
 /// What the window speaks.
@@ -9,12 +10,12 @@ static SPOKEN: Mutex<Language> = Mutex::new(Language::English);
 
 /// Lets every thread speak a language from the next time on that it calls [`follow`].
 pub(super) fn set(language: Language) {
-    *SPOKEN.lock().unwrap_or_else(PoisonError::into_inner) = language;
+    *lock(&SPOKEN) = language;
 }
 
 /// Lets this thread speak as the window does.
 pub(super) fn follow() {
-    let wanted = *SPOKEN.lock().unwrap_or_else(PoisonError::into_inner);
+    let wanted = *lock(&SPOKEN);
     if wanted != language::spoken()
         && let Some(texts) = language::built_in(wanted)
     {

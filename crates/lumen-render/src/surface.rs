@@ -5,10 +5,10 @@
 //! uploads indices and normals and leaves positions alone. Buffers keep their memory and grow by half again.
 
 use glam::Vec3;
+use lumen_mesh::TriMesh;
 
 use super::buffer::GrowingBuffer;
 use super::error::SurfaceError;
-use lumen_mesh::TriMesh;
 
 /// Positions, normals, triangles, edges and perhaps scalars of one surface, in GPU memory.
 #[derive(Debug)]
@@ -88,7 +88,7 @@ impl GpuSurface {
     /// `None` once all are; nothing is drawn before.
     ///
     /// # Errors
-    /// When an index is out of range, or the device does not allow a buffer of that size; the surface is empty then.
+    /// When an index is out of range, or the device does not allow a buffer of that size. Nothing is drawn then.
     pub fn upload_part(
         &mut self,
         device: &wgpu::Device,
@@ -101,7 +101,7 @@ impl GpuSurface {
         if from == 0 {
             self.set_positions(device, queue, &[])?;
             self.nodes = mesh.positions.len();
-            self.check(mesh.triangles.as_flattened()).inspect_err(|_| self.nodes = 0)?;
+            self.check(mesh.triangles.as_flattened())?;
             // A triangle whose corners have no normals is lit by that of its plane.
             self.normals.write_zeros(device, queue, size_of_val(&*mesh.positions) as u64)?;
         }

@@ -40,14 +40,11 @@ impl LumenApp {
             ui.set_min_height(height);
             let now = self.now(mode);
             let is_told = self.panels.all().into_iter().any(|panel| panel.show_status(ui, now, &mut asked));
-            // Work and a picture that is drawn stand in its place.
-            let is_seen = !is_told && self.state.told_work().is_none() && self.record.progress().is_none();
-            let now_s = ui.input(|input| input.time);
-            if let Some(left) = self.state.notices.follow(now_s, is_seen) {
+            let progress = self.record.progress();
+            let is_read =
+                !is_told && bar::status(ui, &self.state, &self.views, notice, progress, is_narrow, &mut asked);
+            if let Some(left) = self.state.notices.follow(ui.input(|input| input.time), is_read) {
                 ui.ctx().request_repaint_after(left);
-            }
-            if !is_told {
-                bar::status(ui, &self.state, &self.views, notice, self.record.progress(), is_narrow, &mut asked);
             }
         });
         if let Some(panel) = self.panels.of_mut(mode).filter(|_| is_stacked)
