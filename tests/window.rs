@@ -11,10 +11,14 @@ use eframe::egui_wgpu::WgpuSetupExisting;
 use libtest_mimic::{Arguments, Failed, Trial};
 use lumen::render::device_descriptor;
 use x11rb::connection::Connection;
-use x11rb::protocol::xproto::{AtomEnum, ClientMessageEvent, ConnectionExt, EventMask, ImageFormat, Window};
+use x11rb::protocol::xproto::{
+    AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ClientMessageEvent, ConnectionExt, EventMask, ImageFormat,
+    MOTION_NOTIFY_EVENT, Window,
+};
+use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
-/// What is set where this program is to be the window, on a device that is lost as soon as a line is read.
+/// What is set where this program is to be the window, on a device that is lost once a line is read.
 const LOSES: &str = "LUMEN_TEST_LOSES_DEVICE";
 
 fn main() {
@@ -30,6 +34,8 @@ fn main() {
         Trial::test("a window whose device is lost opens again and shows what it showed", open_again)
             .with_ignored_flag(!has_display),
     ];
+    // A server whose last client has left begins anew, and refuses the next while it does.
+    let _stays = has_display.then(|| x11rb::connect(None).expect("an X server"));
     // They look for a window by its title.
     let arguments = Arguments { test_threads: Some(1), ..Arguments::from_args() };
     libtest_mimic::run(&arguments, trials).exit();
@@ -50,7 +56,7 @@ fn loses_its_device() {
     }
 }
 
-/// A device, gone once a line has come.
+/// A device that is lost once a line has come, at the next that is asked of it.
 fn doomed() -> WgpuSetupExisting {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends: wgpu::Backends::VULKAN,
@@ -59,12 +65,14 @@ fn doomed() -> WgpuSetupExisting {
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
     let adapter = adapter.expect("a graphics device (in a container: mesa-vulkan-drivers)");
     let (device, queue) = pollster::block_on(adapter.request_device(&device_descriptor(&adapter))).expect("a device");
-    let end = device.clone();
+    let (end, line) = (device.clone(), queue.clone());
     std::thread::spawn(move || {
         std::io::stdin().read_line(&mut String::new()).expect("a line");
-        end.destroy();
-        // Where it can, the device says so once it has come to rest.
-        end.poll(wgpu::PollType::wait_indefinitely()).expect("a device at rest");
+        line.on_submitted_work_done(move || {
+            end.destroy();
+            // One that is given up says so once it has come to rest.
+            end.poll(wgpu::PollType::wait_indefinitely()).expect("a device at rest");
+        });
     });
     WgpuSetupExisting { instance, adapter, device, queue }
 }
@@ -102,18 +110,12 @@ fn open_again() -> Result<(), Failed> {
     let window = wait(Duration::from_secs(60), || find(&x, root))?;
     let vessel = |window: Window| warm_pixels(&x, window).filter(|&count| count > 10_000);
     wait(Duration::from_secs(60), || vessel(window))?;
-    // A device that a driver takes away is known to be lost at once; one that is given up says so when it is asked, and
-    // a frame might come before that.
-    let mut last = (0, Vec::new());
-    wait(Duration::from_secs(120), || {
-        let now = pixels(&x, window)?;
-        last = if now == last.1 { (last.0 + 1, now) } else { (0, now) };
-        (last.0 >= 10).then_some(())
-    })?;
     let size = |window: Window| x.get_geometry(window).ok()?.reply().ok().map(|it| (it.width, it.height));
     let before = size(window);
 
-    program.0.stdin.take().ok_or("no line to the program")?.write_all(b"\n")?;
+    // A surface that turns is drawn in each frame, which is where a loss is noticed.
+    let mut line = program.0.stdin.take().ok_or("no line to the program")?;
+    drag(&x, root, window, || line.write_all(b"\n"))?;
     let again = wait(Duration::from_secs(60), || find(&x, root).filter(|&found| found != window))?;
     wait(Duration::from_secs(60), || vessel(again))?;
     if size(again) != before {
@@ -150,6 +152,29 @@ fn find(x: &RustConnection, parent: Window) -> Option<Window> {
         }
     }
     None
+}
+
+/// Turns the surface in the left view, and calls `midway` while it turns.
+fn drag(
+    x: &RustConnection,
+    root: Window,
+    window: Window,
+    midway: impl FnOnce() -> std::io::Result<()>,
+) -> Result<(), Failed> {
+    let size = x.get_geometry(window)?.reply()?;
+    let start = x.translate_coordinates(window, root, (size.width / 3) as i16, (size.height / 2) as i16)?.reply()?;
+    let pointer = |kind, button, along| -> Result<(), Failed> {
+        x.xtest_fake_input(kind, button, 0, root, start.dst_x + along, start.dst_y, 0)?;
+        x.flush()?;
+        std::thread::sleep(Duration::from_millis(20));
+        Ok(())
+    };
+    pointer(MOTION_NOTIFY_EVENT, 0, 0)?;
+    pointer(BUTTON_PRESS_EVENT, 1, 0)?;
+    (1..=50).try_for_each(|step| pointer(MOTION_NOTIFY_EVENT, 0, step))?;
+    midway()?;
+    (51..=100).try_for_each(|step| pointer(MOTION_NOTIFY_EVENT, 0, step))?;
+    pointer(BUTTON_RELEASE_EVENT, 1, 0)
 }
 
 /// What the window shows: blue, green, red and nothing for each pixel.
