@@ -128,8 +128,7 @@ fn scale_bar(painter: &Painter, inner: Rect, height: f32, camera: &Camera, colou
     let ends = [left, left + length];
     let [first, last] = ends.map(|x| [pos2(x, y - 4.0), pos2(x, y + 4.0)]);
     halo::lines(painter, &[ends.map(|x| pos2(x, y)), first, last], stroke);
-    let number = if mm >= 1.0 { decimal(mm, 0) } else { grouped(mm) };
-    let label = format!("{number} mm");
+    let label = format!("{} mm", grouped(mm));
     // A label that is longer than its bar begins where the bar does.
     let text = painter.layout_no_wrap(label, FontId::proportional(12.0), colour);
     let at = pos2(left + ((length - text.size().x) / 2.0).max(0.0), y - 6.0 - text.size().y);
@@ -141,8 +140,8 @@ fn round_length(mm: f32) -> f32 {
     if !(mm.is_finite() && mm > 0.0) {
         return 1.0;
     }
-    let power = 10f32.powf(mm.log10().floor());
-    let lead = mm / power;
+    let power = mm.log10().floor() as i32;
+    let lead = mm / 10f32.powi(power);
     let step = if lead >= 5.0 {
         5.0
     } else if lead >= 2.0 {
@@ -150,7 +149,8 @@ fn round_length(mm: f32) -> f32 {
     } else {
         1.0
     };
-    step * power
+    // 5 / 100 is written as 0.05, and 5 * 0.01 as 0.049999997.
+    if power < 0 { step / 10f32.powi(-power) } else { step * 10f32.powi(power) }
 }
 
 /// The axes, turned as the view is: the patient's sides where they are known, else X, Y and Z.
@@ -249,5 +249,11 @@ mod tests {
     fn scale_bars_have_round_lengths() {
         assert_eq!([0.7, 1.0, 1.9, 2.1, 7.0, 49.0, 51.0].map(round_length), [0.5, 1.0, 1.0, 2.0, 5.0, 20.0, 50.0]);
         assert_eq!(round_length(f32::NAN), 1.0);
+        let as_written =
+            ["0.00001", "0.00002", "0.0001", "0.001", "0.005", "0.01", "0.02", "0.05", "0.1", "0.2", "0.5"];
+        for length in as_written {
+            let mm: f32 = length.parse().unwrap();
+            assert_eq!(round_length(1.5 * mm).to_string(), length);
+        }
     }
 }

@@ -127,9 +127,10 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
     if let Some(why) = safe.and_then(|safe| safe.stopped_by.as_ref()) {
         help += &format!(" {}.", tell(why));
     }
-    if let Some(why) = safe.and_then(|safe| safe.refused.as_ref()) {
+    let refused = safe.and_then(|safe| safe.refused.as_ref()).map(|why| tell(why));
+    if let Some(why) = &refused {
         help += " ";
-        help += &say!("panel-safe-refused", why = tell(why));
+        help += &say!("panel-safe-refused", why = why);
     }
     let changed = safe.map_or(0, |safe| safe.branches.iter().filter(|branch| branch.changed_by_smoothing).count());
     if changed > 0 {
@@ -145,7 +146,8 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
     let label = if is_covered { say!("panel-safe") } else { say!("panel-kept-to") };
     let percent = safe.and_then(|safe| safe.percent);
     let wanted = percent.map(verdict::rate);
-    let rests = coverage.as_deref().unwrap_or("...");
+    let rests = coverage.as_deref().or(refused.as_deref()).unwrap_or("...");
+    let line = |ui: &mut Ui| ui.add(Label::new(RichText::new(rests).small()).truncate());
     let control = |ui: &mut Ui| {
         let go =
             ui.add_enabled(wanted.is_some_and(|wanted| wanted != *target), egui::Button::new(say!("panel-go-there")));
@@ -161,7 +163,7 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
     match form {
         Form::Tall => {
             row(ui, &label, &help, control);
-            remark(ui, rests);
+            line(ui);
         }
         // A row for a finger has room for two lines.
         Form::Low => {
@@ -170,7 +172,7 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
                     ui.set_max_width(ui.available_width() * LABELS);
                     ui.spacing_mut().item_spacing.y = 0.0;
                     ui.label(label).on_hover_text(help);
-                    ui.add(Label::new(RichText::new(rests).small()).truncate());
+                    line(ui);
                 });
                 ui.with_layout(Layout::right_to_left(Align::Center), control);
             });

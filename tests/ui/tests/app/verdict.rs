@@ -195,6 +195,8 @@ fn what_has_no_vessel_is_not_called_safe() {
     open(&mut harness, &memory, "one.obj", b"v 0 0 0\nv 50 0 0\nv 0 50 0\nf 1 2 3\n".to_vec());
     assert!(!says(&harness, "Safe to simulate on"));
     assert!(says(&harness, "There are no vessels to measure"));
+    // And once more where the safe rate would stand, which nobody looks for any more.
+    assert_eq!(harness.query_all_by_label_contains("the surface has no inside").count(), 2);
 }
 
 #[test]
