@@ -7,7 +7,7 @@ use super::reduce::{DEFAULT_BOUND, LARGEST_BOUND};
 use super::{come_to, entering, measured, set};
 use crate::app::action::Action;
 use crate::app::control::{self, Change, Form, Setting};
-use crate::app::row::{number, remark, row};
+use crate::app::row::{number, row};
 use crate::app::state::State;
 use crate::app::theme;
 use crate::language::{decimal, tell, text};
