@@ -2,7 +2,7 @@
 //! place. Of the panels it knows their actions alone, each of which stands in a file that knows no panel.
 
 use super::options::ViewOptions;
-use super::{collapses, compare, lesson, measure, record, scan, trial, vessels};
+use super::{collapses, compare, lesson, measure, playback, record, scan, trial, vessels};
 use crate::io::{Axes, Format, Unit};
 use crate::language::Language;
 use crate::phantom::Sample;
@@ -60,6 +60,13 @@ pub enum Action {
         /// What is to be seen there, in mm.
         height_mm: f32,
     },
+    /// Ring a place, without going there.
+    Mark {
+        /// In mm.
+        at_mm: [f32; 3],
+        /// What there is to say of it.
+        label: String,
+    },
     /// Take the ring off that marks a place.
     Unmark,
     /// Show other things in the views.
@@ -72,6 +79,8 @@ pub enum Action {
     Average(bool),
     /// Show the surface as it was opened, for as long as this is so.
     HoldBefore(bool),
+    /// Leave the other modes and what stands beside the views.
+    Prepare,
     /// Show or leave the compare view.
     Compare,
     /// Something of the comparison.
@@ -86,6 +95,8 @@ pub enum Action {
     Measure(measure::action::Action),
     /// Something of the collapses, one by one.
     Collapses(collapses::action::Action),
+    /// Something of the reduction that is played.
+    Playback(playback::action::Action),
     /// Something of the lessons.
     Lesson(lesson::action::Action),
     /// Save the settings as a file.

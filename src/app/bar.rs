@@ -3,14 +3,17 @@
 use std::sync::Arc;
 
 use egui::text::LayoutJob;
-use egui::{Button, Color32, Context, Galley, Response, RichText, Role, TextStyle, TextWrapMode, Ui, WidgetText};
+use egui::{
+    Button, Color32, Galley, Rect, Response, RichText, Role, TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetText, pos2,
+    vec2,
+};
 
 use super::action::Action;
 use super::assist::name;
 use super::axes;
 use super::control::progress;
 use super::icon::{self, Icon};
-use super::menus::{long_menu, menu};
+use super::menus::{icon_menu, long_menu, menu};
 use super::mode::{Entry, Group, Mode};
 use super::notices::{Kind, Notice};
 use super::options::{Colours, ViewOptions};
@@ -20,21 +23,10 @@ use super::state::State;
 use super::views::Views;
 use super::{deviation, lesson, record, spoken, theme, verdict, vessels};
 use crate::io::{Axes, Format, Unit};
-use crate::language::{self, Key, Language, tell};
+use crate::language::{Key, Language, tell};
 use crate::phantom::Sample;
 use crate::render::StandardView;
 use crate::say;
-
-/// The widths in points from which on the bar has room for a button of everything, of what a phone has in its menu, and of
-/// the units: words of other languages are longer, and buttons for a finger wider.
-fn widths(ctx: &Context) -> [f32; 3] {
-    let [all, many, units] = match language::spoken() {
-        Language::English => [1110.0, 0.0, 0.0],
-        Language::German => [1195.0, 730.0, 336.0],
-        Language::French => [1205.0, 710.0, 334.0],
-    };
-    if theme::suits_finger(ctx) { [all + 132.0, many + 96.0, units + 40.0] } else { [all, many, units] }
-}
 
 /// What else is shown.
 #[derive(Clone, Copy)]
@@ -43,8 +35,6 @@ pub(super) struct Shown<'a> {
     pub(super) mode: Mode,
     /// What modes and panels have in the bar.
     pub(super) entries: &'a [Entry],
-    /// The window is that of a phone, where only what is needed most has a button of its own.
-    pub(super) is_narrow: bool,
     /// Someone presents.
     pub(super) is_presenting: bool,
     /// Whether surfaces are kept on this device, where they can be.
@@ -64,7 +54,64 @@ impl Shown<'_> {
     }
 }
 
-/// The bar above.
+/// How much of the bar has a place of its own. What has none is in the menu.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Room {
+    /// The three buttons of files.
+    Files,
+    /// The units of files, too.
+    Units,
+    /// Undo and redo, and the tabs behind the name of the one that is open.
+    Tab,
+    /// Each tab.
+    Tabs,
+    /// What belongs to the views.
+    All,
+    /// The program's name.
+    Name,
+}
+
+impl Room {
+    /// That of a bar as wide as what is left of this one, by the words of the language that is spoken.
+    fn of(ui: &Ui, shown: Shown<'_>) -> Self {
+        let spacing = ui.spacing();
+        let between = spacing.item_spacing.x;
+        let words = |text: String, style: TextStyle, around: f32| {
+            let galley = WidgetText::from(text).into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, style);
+            (galley.size().x + around).max(spacing.interact_size.x) + between
+        };
+        let button = |text: String| words(text, TextStyle::Button, 2.0 * spacing.button_padding.x);
+        let icons = |count: usize| count as f32 * (spacing.interact_size.y + between);
+        let line = RULE + between;
+        let files: f32 = [say!("app-open"), say!("app-sample"), say!("app-save")].map(button).iter().sum();
+        let units = files + theme::row(ui.ctx(), UNITS) + between;
+        let tab = |entry: &Entry| button(entry.label.say());
+        let longest = shown.of(Group::Tabs).map(tab).fold(0.0, f32::max) + TRIANGLE;
+        let history = icons(2) + 2.0 * line;
+        let tabs = units + history + shown.of(Group::Tabs).map(tab).sum::<f32>() + button(say!("app-learn")) + TRIANGLE;
+        let all = tabs + line + icons(VIEW_ICONS);
+        let needed = [
+            (Self::Name, all + words("Lumen".to_owned(), TextStyle::Heading, between)),
+            (Self::All, all),
+            (Self::Tabs, tabs + icons(1)),
+            (Self::Tab, units + history + longest + icons(1)),
+            (Self::Units, units + icons(1)),
+        ];
+        let width = ui.available_width();
+        needed.into_iter().find(|&(_, needed)| needed <= width).map_or(Self::Files, |(room, _)| room)
+    }
+}
+
+/// Width of a line between two groups, in points.
+const RULE: f32 = 6.0;
+/// Width of the button of the units where a mouse points, in points.
+const UNITS: f32 = 20.0;
+/// Width of the triangle of a tab that opens a menu, in points.
+const TRIANGLE: f32 = 16.0;
+/// How many icons belong to the views.
+const VIEW_ICONS: usize = 6;
+
+/// The bar above: files, the tabs of the modes, and what belongs to the views.
 pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, asked: &mut Vec<Action>) {
     let mut ask = |wanted: bool, what: Action| {
         if wanted {
@@ -72,16 +119,14 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
         }
     };
     ui.horizontal_centered(|ui| {
-        let width = ui.available_width();
-        let [is_short, is_narrow, is_least] = widths(ui.ctx()).map(|least| width < least);
-        let is_narrow = is_narrow || shown.is_narrow;
-        if !is_short {
+        let room = Room::of(ui, shown);
+        if room == Room::Name {
             ui.label(RichText::new("Lumen").heading().strong());
-            ui.add_space(8.0);
+            ui.add_space(ui.spacing().item_spacing.x);
         }
         ask(ui.button(say!("app-open")).on_hover_text(say!("app-open-help")).clicked(), Action::Open);
-        if !is_least {
-            open_in(ui, &mut ask);
+        if room >= Room::Units {
+            icon_menu(ui, Icon::Down, &say!("app-open-in"), &say!("app-open-in-help"), &mut |ui| units(ui, &mut ask));
         }
         menu(ui, &say!("app-sample"), &mut |ui| {
             for sample in Sample::ALL {
@@ -90,52 +135,9 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
         });
         let has_result = state.document.as_ref().is_some_and(|document| document.shown.is_some());
         ui.add_enabled_ui(has_result, |ui| {
-            let mut files = |ui: &mut Ui| {
-                if let Some(document) = &state.document {
-                    let verdict = verdict::verdict(state, document);
-                    ui.set_max_width(300.0);
-                    let colour = ui.visuals().error_fg_color;
-                    let colour = if verdict.is_safe == Some(false) { colour } else { ui.visuals().weak_text_color() };
-                    in_lines(ui, &verdict.in_short(tell), colour);
-                    ui.separator();
-                }
-                for format in Format::ALL {
-                    let text = format!("{}...", format.label());
-                    let unit = say!("app-save-lengths", unit = format.unit().to_string());
-                    ask(ui.button(text).on_hover_text(unit).clicked(), Action::Save(format));
-                }
-                ui.label(RichText::new(say!("app-save-all-lengths")).small().weak());
-                axes::written(ui, state, &mut ask);
-                ui.separator();
-                let has_vessels = state.calibre().is_some_and(|calibre| calibre.found.is_ok());
-                ui.add_enabled_ui(has_vessels, |ui| {
-                    for (text, what, help) in vessels::FILES {
-                        ask(ui.button(text.say()).on_hover_text(help.say()).clicked(), Action::Vessels(what));
-                    }
-                });
-                ui.separator();
-                let asked = record::menu(ui, shown.record, state.calibre().is_some());
-                if let Some(asked) = asked {
-                    ask(true, Action::Record(asked));
-                }
-                ui.separator();
-                let help = say!("app-save-settings-help");
-                let save = ui.button(say!("app-save-settings")).on_hover_text(help).clicked();
-                ask(save, Action::SaveSettings);
-                if shown.has_links {
-                    let help = say!("app-copy-link-help");
-                    let copy = ui.button(say!("app-copy-link")).on_hover_text(help).clicked();
-                    ask(copy, Action::CopyLink);
-                }
-                if let Some(mut keeps) = shown.keeps_surface {
-                    ui.separator();
-                    kept_here(ui, &mut keeps, &mut ask);
-                }
-            };
-            long_menu(ui, &say!("app-save"), &mut files);
+            long_menu(ui, &say!("app-save"), &mut |ui| save(ui, state, shown, &mut ask));
         });
-        if !is_narrow {
-            ui.separator();
+        if room >= Room::Tab {
             let can_undo = state.history.can_undo();
             let (undo, help) = (say!("app-undo"), say!("app-undo-help"));
             ask(icon::button(ui, Icon::Undo, can_undo, &undo, &help).clicked(), Action::Undo);
@@ -143,49 +145,147 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
             let (redo, help) = (say!("app-redo"), say!("app-redo-help"));
             ask(icon::button(ui, Icon::Redo, can_redo, &redo, &help).clicked(), Action::Redo);
             ui.separator();
-            ui.add_enabled_ui(shown.mode == Mode::Method, |ui| {
-                let is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
-                let split = ui.add(Button::new(say!("app-split")).selected(is_split));
-                ask(split.on_hover_text(say!("app-split-help")).clicked(), Action::Reveal);
-                before_button(ui, views, &mut ask);
-            });
-            for entry in shown.of(Group::Modes) {
-                ask(button(ui, entry).on_hover_text(entry.help.say()).clicked(), entry.action.clone());
+        }
+        match room {
+            Room::Files | Room::Units => {}
+            Room::Tab => {
+                let open = shown.of(Group::Tabs).find(|entry| entry.is_open);
+                let name = open.map_or_else(String::new, |entry| entry.label.say());
+                tab_menu(ui, &name, &mut |ui| tabs(ui, shown, false, &mut ask));
+            }
+            Room::Tabs | Room::All | Room::Name => {
+                tabs(ui, shown, true, &mut ask);
+                tab_menu(ui, &say!("app-learn"), &mut |ui| learn(ui, shown, &mut ask));
             }
         }
-        if is_short {
-            let menu = icon::button(ui, Icon::Menu, true, &say!("app-menu"), &say!("app-menu-help"));
-            egui::Popup::menu(&menu).show(|ui| {
-                if is_least {
-                    open_in(ui, &mut ask);
-                }
-                more(ui, state, views, shown, &mut ask);
-            });
-        } else {
-            for entry in shown.of(Group::Beside) {
-                ask(button(ui, entry).on_hover_text(entry.help.say()).clicked(), entry.action.clone());
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if room >= Room::All {
+                of_views(ui, state, views, shown, &mut ask);
+            } else {
+                icon_menu(ui, Icon::Menu, &say!("app-menu"), &say!("app-menu-help"), &mut |ui| {
+                    if room < Room::Units {
+                        menu(ui, &say!("app-open-in"), &mut |ui| units(ui, &mut ask));
+                    }
+                    more(ui, state, views, shown, room, &mut ask);
+                });
             }
-            menu(ui, &say!("app-view"), &mut |ui| view_menu(ui, state, views.options, shown, &mut ask));
-            menu(ui, &say!("app-learn"), &mut |ui| learn(ui, shown, &mut ask));
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                ask(ui.button(say!("app-about")).clicked(), Action::About);
-                ask(ui.button(say!("app-help")).on_hover_text(say!("app-help-help")).clicked(), Action::Help);
-                let (other, help) = (say!("app-theme"), say!("app-theme-help"));
-                ask(icon::button(ui, Icon::Theme, true, &other, &help).clicked(), Action::Theme);
-            });
-        }
+        });
     });
 }
 
-/// Files whose numbers are in another unit.
-fn open_in(ui: &mut Ui, ask: &mut impl FnMut(bool, Action)) {
-    let units = menu(ui, &say!("app-open-in"), &mut |ui| {
-        ui.set_min_width(ui.spacing().interact_size.x);
-        for unit in Unit::ALL {
-            ask(ui.button(format!("{unit}...")).clicked(), Action::OpenIn(unit));
+/// What can be saved, and what of it is kept here.
+fn save(ui: &mut Ui, state: &State, shown: Shown<'_>, ask: &mut impl FnMut(bool, Action)) {
+    if let Some(document) = &state.document {
+        let verdict = verdict::verdict(state, document);
+        ui.set_max_width(300.0);
+        let colour = ui.visuals().error_fg_color;
+        let colour = if verdict.is_safe == Some(false) { colour } else { ui.visuals().weak_text_color() };
+        in_lines(ui, &verdict.in_short(tell), colour);
+        ui.separator();
+    }
+    for format in Format::ALL {
+        let text = format!("{}...", format.label());
+        let unit = say!("app-save-lengths", unit = format.unit().to_string());
+        ask(ui.button(text).on_hover_text(unit).clicked(), Action::Save(format));
+    }
+    ui.label(RichText::new(say!("app-save-all-lengths")).small().weak());
+    axes::written(ui, state, ask);
+    ui.separator();
+    let has_vessels = state.calibre().is_some_and(|calibre| calibre.found.is_ok());
+    ui.add_enabled_ui(has_vessels, |ui| {
+        for (text, what, help) in vessels::FILES {
+            ask(ui.button(text.say()).on_hover_text(help.say()).clicked(), Action::Vessels(what));
         }
     });
-    units.on_hover_text(say!("app-open-in-help"));
+    ui.separator();
+    if let Some(asked) = record::menu(ui, shown.record, state.calibre().is_some()) {
+        ask(true, Action::Record(asked));
+    }
+    ui.separator();
+    let save = ui.button(say!("app-save-settings")).on_hover_text(say!("app-save-settings-help"));
+    ask(save.clicked(), Action::SaveSettings);
+    if shown.has_links {
+        let copy = ui.button(say!("app-copy-link")).on_hover_text(say!("app-copy-link-help"));
+        ask(copy.clicked(), Action::CopyLink);
+    }
+    if let Some(mut keeps) = shown.keeps_surface {
+        ui.separator();
+        kept_here(ui, &mut keeps, ask);
+    }
+}
+
+/// The tabs of the modes: in the bar, or one below the other in a menu.
+fn tabs(ui: &mut Ui, shown: Shown<'_>, is_bar: bool, ask: &mut impl FnMut(bool, Action)) {
+    for entry in shown.of(Group::Tabs) {
+        let label = entry.label.say();
+        let response = if is_bar {
+            tab(ui, &label, entry.is_open, entry.is_enabled)
+        } else {
+            ui.add_enabled(entry.is_enabled, Button::new(label).selected(entry.is_open))
+        };
+        if response.on_hover_text(entry.help.say()).clicked() && !entry.is_open {
+            ask(true, Action::Prepare);
+            ask(entry.action != Action::Prepare, entry.action.clone());
+        }
+    }
+}
+
+/// A tab: words, and under those of the one that is open a line.
+fn tab(ui: &mut Ui, label: &str, is_open: bool, is_enabled: bool) -> Response {
+    let words = RichText::new(label);
+    let button = Button::new(if is_open { words.strong() } else { words }).frame_when_inactive(false);
+    let response = ui.add_enabled(is_enabled, button);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, is_enabled, is_open, label));
+    if is_open {
+        let rect = response.rect.shrink2(vec2(4.0, 0.0));
+        let line = Rect::from_min_max(pos2(rect.left(), rect.bottom() - 2.0), rect.max);
+        ui.painter().rect_filled(line, 1.0, ui.visuals().hyperlink_color);
+    }
+    response
+}
+
+/// A tab that opens a menu.
+fn tab_menu(ui: &mut Ui, label: &str, content: &mut dyn FnMut(&mut Ui)) {
+    let response = ui
+        .scope(|ui| {
+            let words = ui.painter().layout_no_wrap(label.to_owned(), TextStyle::Button.resolve(ui.style()), Color32::WHITE);
+            let size = vec2(words.size().x + 2.0 * ui.spacing().button_padding.x + TRIANGLE, ui.spacing().interact_size.y);
+            let button = Button::new(label).frame_when_inactive(false).min_size(size);
+            ui.add(button)
+        })
+        .inner;
+    name(&response, Role::Button, label);
+    let middle = pos2(response.rect.right() - TRIANGLE / 2.0 - 4.0, response.rect.center().y + 1.0);
+    icon::down(ui.painter(), middle, ui.style().interact(&response).fg_stroke.color);
+    egui::Popup::menu(&response).show(content);
+}
+
+/// What belongs to the views, from right to left.
+fn of_views(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, ask: &mut impl FnMut(bool, Action)) {
+    let (about, help) = (say!("app-about"), say!("app-about-help"));
+    ask(icon::button(ui, Icon::About, true, &about, &help).clicked(), Action::About);
+    let (keys, help) = (say!("app-help"), say!("app-help-help"));
+    ask(icon::button(ui, Icon::Help, true, &keys, &help).clicked(), Action::Help);
+    let (other, help) = (say!("app-theme"), say!("app-theme-help"));
+    ask(icon::button(ui, Icon::Theme, true, &other, &help).clicked(), Action::Theme);
+    icon_menu(ui, Icon::View, &say!("app-view"), &say!("app-view-help"), &mut |ui| {
+        view_menu(ui, state, views.options, shown, ask);
+    });
+    let is_method = shown.mode == Mode::Method;
+    let (before, help) = (say!("app-before"), say!("app-before-help"));
+    let is_held = icon::hold(ui, Icon::Before, is_method, views.show_before, &before, &help).is_pointer_button_down_on();
+    ask(is_held != views.before_is_held, Action::HoldBefore(is_held));
+    let is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
+    let (split, help) = (say!("app-split"), say!("app-split-help"));
+    ask(icon::toggle(ui, Icon::Split, is_method, is_split, &split, &help).clicked(), Action::Reveal);
+}
+
+/// Files whose numbers are in another unit.
+fn units(ui: &mut Ui, ask: &mut impl FnMut(bool, Action)) {
+    ui.set_min_width(ui.spacing().interact_size.x);
+    for unit in Unit::ALL {
+        ask(ui.button(format!("{unit}...")).clicked(), Action::OpenIn(unit));
+    }
 }
 
 /// What is kept on this device.
@@ -195,20 +295,6 @@ fn kept_here(ui: &mut Ui, keeps: &mut bool, ask: &mut impl FnMut(bool, Action)) 
     ask(chosen, Action::KeepSurface(*keeps));
     let forget = ui.button(say!("app-forget")).on_hover_text(say!("app-forget-help")).clicked();
     ask(forget, Action::Forget);
-}
-
-/// The button of a mode or a panel.
-fn button(ui: &mut Ui, entry: &Entry) -> Response {
-    ui.add_enabled(entry.is_enabled, Button::new(entry.label.say()).selected(entry.is_open))
-}
-
-/// Shows the surface as it was opened for as long as it is held.
-fn before_button(ui: &mut Ui, views: &Views, ask: &mut impl FnMut(bool, Action)) {
-    let response =
-        ui.add(Button::new(say!("app-before")).sense(egui::Sense::click_and_drag()).selected(views.show_before));
-    let response = response.on_hover_text(say!("app-before-help"));
-    let is_held = response.is_pointer_button_down_on();
-    ask(is_held != views.before_is_held, Action::HoldBefore(is_held));
 }
 
 fn view_menu(ui: &mut Ui, state: &State, options: ViewOptions, shown: Shown<'_>, ask: &mut impl FnMut(bool, Action)) {
@@ -280,19 +366,26 @@ fn learn(ui: &mut Ui, shown: Shown<'_>, ask: &mut impl FnMut(bool, Action)) {
     ask(words.clicked(), Action::Lesson(lesson::Action::Glossary));
 }
 
-fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, ask: &mut impl FnMut(bool, Action)) {
-    ask(ui.add_enabled(state.history.can_undo(), Button::new(say!("app-undo"))).clicked(), Action::Undo);
-    ask(ui.add_enabled(state.history.can_redo(), Button::new(say!("app-redo"))).clicked(), Action::Redo);
+/// What has no place of its own in the bar.
+fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, room: Room, ask: &mut impl FnMut(bool, Action)) {
+    if room < Room::Tab {
+        ask(ui.add_enabled(state.history.can_undo(), Button::new(say!("app-undo"))).clicked(), Action::Undo);
+        ask(ui.add_enabled(state.history.can_redo(), Button::new(say!("app-redo"))).clicked(), Action::Redo);
+    }
     let mut chosen = views.options;
     ui.checkbox(&mut chosen.before, say!("app-show-before"));
     ask(chosen != views.options, Action::Show(chosen));
     let mut is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
     ask(ui.checkbox(&mut is_split, say!("app-split-view")).clicked(), Action::Reveal);
-    for entry in [Group::Modes, Group::Beside].into_iter().flat_map(|group| shown.of(group)) {
-        ask(button(ui, entry).clicked(), entry.action.clone());
+    if room < Room::Tab {
+        ui.separator();
+        tabs(ui, shown, false, ask);
+        ui.separator();
     }
     long_menu(ui, &say!("app-view"), &mut |ui| view_menu(ui, state, views.options, shown, ask));
-    long_menu(ui, &say!("app-learn"), &mut |ui| learn(ui, shown, ask));
+    if room < Room::Tabs {
+        long_menu(ui, &say!("app-learn"), &mut |ui| learn(ui, shown, ask));
+    }
     ask(ui.button(say!("app-theme")).clicked(), Action::Theme);
     ask(ui.button(say!("app-help")).clicked(), Action::Help);
     ask(ui.button(say!("app-about")).clicked(), Action::About);

@@ -2,7 +2,7 @@
 
 use std::f32::consts::{PI, TAU};
 
-use egui::{Color32, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, pos2, vec2};
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 use super::assist::name;
 use super::theme;
@@ -22,24 +22,74 @@ pub(super) enum Icon {
     Menu,
     /// A cross.
     Close,
+    /// A picture in two halves.
+    Split,
+    /// A clock.
+    Before,
+    /// An eye.
+    View,
+    /// A question mark.
+    Help,
+    /// The letter i.
+    About,
+    /// A triangle that points down.
+    Down,
 }
 
-/// A button that is an icon. `label` is its name for assistive tools, `help` what it does.
+/// A button that is an icon. `label` is its name for assistive tools and stands over its `help`, which says what it does.
 pub(super) fn button(ui: &mut Ui, icon: Icon, enabled: bool, label: &str, help: &str) -> Response {
-    let size = if matches!(icon, Icon::Reset | Icon::Close) {
-        theme::row(ui.ctx(), 20.0)
-    } else {
-        ui.spacing().interact_size.y
+    sensed(ui, icon, enabled, Sense::click(), label, help)
+}
+
+/// The same for one that is on or off.
+pub(super) fn toggle(ui: &mut Ui, icon: Icon, enabled: bool, is_on: bool, label: &str, help: &str) -> Response {
+    held(ui, icon, enabled, is_on, Sense::click(), label, help)
+}
+
+/// The same for one that is on for as long as it is held.
+pub(super) fn hold(ui: &mut Ui, icon: Icon, enabled: bool, is_on: bool, label: &str, help: &str) -> Response {
+    held(ui, icon, enabled, is_on, Sense::click_and_drag(), label, help)
+}
+
+fn held(ui: &mut Ui, icon: Icon, enabled: bool, is_on: bool, sense: Sense, label: &str, help: &str) -> Response {
+    let under = ui.painter().add(Shape::Noop);
+    let response = ui
+        .scope(|ui| {
+            if is_on {
+                ui.visuals_mut().widgets.inactive.fg_stroke.color = ui.visuals().selection.stroke.color;
+            }
+            sensed(ui, icon, enabled, sense, label, help)
+        })
+        .inner;
+    if is_on && !(response.hovered() || response.has_focus()) {
+        ui.painter().set(under, Shape::rect_filled(response.rect, 4.0, ui.visuals().selection.bg_fill));
+    }
+    response.widget_info(|| egui::WidgetInfo::selected(Role::Button, enabled, is_on, label));
+    response
+}
+
+fn sensed(ui: &mut Ui, icon: Icon, enabled: bool, sense: Sense, label: &str, help: &str) -> Response {
+    let enabled = enabled && ui.is_enabled();
+    let size = match icon {
+        Icon::Reset | Icon::Close => vec2(1.0, 1.0) * theme::row(ui.ctx(), 20.0),
+        Icon::Down => vec2(theme::row(ui.ctx(), 20.0), ui.spacing().interact_size.y),
+        _ => vec2(1.0, 1.0) * ui.spacing().interact_size.y,
     };
-    let sense = if enabled { Sense::click() } else { Sense::hover() };
-    let (rect, response) = ui.allocate_exact_size(vec2(size, size), sense);
+    let sense = if enabled { sense } else { Sense::hover() };
+    let (rect, response) = ui.allocate_exact_size(size, sense);
     let visuals = ui.style().interact(&response);
     if enabled && (response.hovered() || response.has_focus()) {
         ui.painter().rect(rect, 4.0, visuals.weak_bg_fill, visuals.bg_stroke, egui::StrokeKind::Inside);
     }
     let colour = if enabled { visuals.fg_stroke.color } else { ui.visuals().weak_text_color().gamma_multiply(0.5) };
     draw(ui.painter(), rect, icon, colour);
-    let response = response.on_hover_text(help.to_owned());
+    let response = response.on_hover_ui(|ui| {
+        // Such as "Undo (Ctrl+Z)".
+        if !help.starts_with(label) {
+            ui.strong(label);
+        }
+        ui.label(help);
+    });
     response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, enabled, label));
     if enabled {
         name(&response, Role::Button, label);
@@ -70,12 +120,43 @@ fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
                 painter.line_segment([middle + vec2(-4.5, -4.5 * side), middle + vec2(4.5, 4.5 * side)], stroke);
             }
         }
+        Icon::Split => {
+            let frame = Rect::from_center_size(middle, vec2(15.0, 12.0));
+            painter.rect_stroke(frame, 2.0, stroke, egui::StrokeKind::Inside);
+            painter.rect_filled(Rect::from_min_max(frame.min, pos2(middle.x, frame.max.y)), 2.0, colour);
+        }
+        Icon::Before => {
+            painter.circle_stroke(middle, radius + 0.5, stroke);
+            painter.add(Shape::line(vec![middle + vec2(0.0, -4.0), middle, middle + vec2(3.0, 2.0)], stroke));
+        }
+        Icon::View => {
+            for side in [-1.0, 1.0] {
+                let lid = (0..=12).map(|i| {
+                    let x = -1.0 + i as f32 / 6.0;
+                    middle + vec2(8.0 * x, side * 5.0 * (1.0 - x * x))
+                });
+                painter.add(Shape::line(lid.collect(), stroke));
+            }
+            painter.circle_filled(middle, 2.2, colour);
+        }
+        Icon::Help | Icon::About => {
+            painter.circle_stroke(middle, radius + 1.0, stroke);
+            let letter = if icon == Icon::Help { "?" } else { "i" };
+            painter.text(middle, Align2::CENTER_CENTER, letter, FontId::proportional(12.0), colour);
+        }
+        Icon::Down => down(painter, middle, colour),
         Icon::Menu => {
             for y in [-5.0, 0.0, 5.0] {
                 painter.line_segment([middle + vec2(-7.0, y), middle + vec2(7.0, y)], stroke);
             }
         }
     }
+}
+
+/// A small triangle that points down: there is more below.
+pub(super) fn down(painter: &Painter, middle: Pos2, colour: Color32) {
+    let corners = [vec2(-4.0, -2.0), vec2(4.0, -2.0), vec2(0.0, 3.0)].map(|p| middle + p);
+    painter.add(Shape::convex_polygon(corners.to_vec(), colour, Stroke::NONE));
 }
 
 /// An arrow that comes from below, bends over and points to `side` (-1 left, 1 right).

@@ -29,7 +29,8 @@
 //! - [`scan`]: a scan or a mask, before there is a surface.
 //! - [`vessels`]: what became of the calibre of each vessel.
 //! - [`record`]: reports, pictures and turntables, drawn by `portrait`.
-//! - [`lesson`]: lessons and the glossary; [`collapses`]: the steps of decimation, one by one.
+//! - [`lesson`]: lessons and the glossary; [`collapses`]: the steps of decimation, one by one;
+//!   [`playback`]: all of them, played.
 //! - [`measure`]: measures on the surface, and the plane that cuts it open.
 //! - `deviation`: how far the level is from what it was, in colours; [`deviating`]: which of that.
 //! - `mending`: what is wrong with a file, where, and what is done about it.
@@ -79,6 +80,7 @@ mod paint_guard;
 mod panel;
 mod places;
 mod platform;
+pub mod playback;
 mod portrait;
 mod presenter;
 pub mod record;
@@ -129,6 +131,7 @@ use self::mode::{Beside, Mode, Panel};
 struct Panels {
     lesson: lesson::Lessons,
     collapses: collapses::Collapses,
+    playback: playback::Playback,
     vessels: vessels::Vessels,
     measure: measure::Measuring,
     compare: compare::CompareView,
@@ -138,15 +141,15 @@ struct Panels {
 
 impl Panels {
     /// All of them, the lowest first: Escape takes off the last.
-    fn all(&self) -> [&dyn Panel; 7] {
-        let Self { lesson, collapses, vessels, measure, compare, trial, scan } = self;
-        [lesson, collapses, vessels, measure, compare, trial, scan]
+    fn all(&self) -> [&dyn Panel; 8] {
+        let Self { lesson, collapses, playback, compare, vessels, measure, trial, scan } = self;
+        [lesson, collapses, playback, compare, vessels, measure, trial, scan]
     }
 
     /// All of them, in the same order.
-    fn all_mut(&mut self) -> [&mut dyn Panel; 7] {
-        let Self { lesson, collapses, vessels, measure, compare, trial, scan } = self;
-        [lesson, collapses, vessels, measure, compare, trial, scan]
+    fn all_mut(&mut self) -> [&mut dyn Panel; 8] {
+        let Self { lesson, collapses, playback, compare, vessels, measure, trial, scan } = self;
+        [lesson, collapses, playback, compare, vessels, measure, trial, scan]
     }
 
     /// Those that have views of their own.

@@ -68,15 +68,15 @@ pub(super) enum Place {
     Below(f32, Option<RangeInclusive<f32>>),
     /// Below everything, in every mode: height in points.
     Foot(f32),
+    /// Right of everything, in every mode: width and range of widths, in points.
+    Side(f32, RangeInclusive<f32>),
 }
 
 /// Where an entry of the bar stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Group {
-    /// With the modes.
-    Modes,
-    /// With what stands beside the views.
-    Beside,
+    /// Among the tabs: one at a time is open.
+    Tabs,
     /// In the menu *Learn*.
     Learn,
 }

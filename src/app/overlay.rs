@@ -4,7 +4,7 @@
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
 use super::places::seen;
-use super::{arrays, halo};
+use super::{arrays, halo, theme};
 use crate::io::Axes;
 use crate::language::{Key, decimal, grouped};
 use crate::mesh::{ArrayInfo, Vec3};
@@ -25,6 +25,8 @@ pub(super) struct Writing<'a> {
     pub legend: Option<Legend>,
     /// The array that has the colours.
     pub array: Option<&'a ArrayInfo>,
+    /// Whether it is a picture of its own, with no bar below it.
+    pub is_alone: bool,
 }
 
 /// What colours mean.
@@ -54,7 +56,8 @@ pub(super) struct Legend {
 
 const MARGIN: f32 = 12.0;
 
-/// What stands in every picture.
+/// Says that it is not for clinical decisions. A window says so once: in the bar below, or, where that has no room for it, in
+/// the views.
 pub(super) const NOT_CLINICAL: Key = Key("about-not-clinical");
 
 /// Writes over the view in `rect`.
@@ -70,7 +73,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
         scale_bar(&painter, inner, rect.height(), writing.camera, text);
         orientation(&painter, inner, writing.camera, writing.axes, text);
     }
-    halo::text(&painter, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), small, weak);
+    if writing.is_alone || theme::is_narrow(ui.ctx()) {
+        halo::text(&painter, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), small, weak);
+    }
     if let Some(colours) = &writing.legend {
         legend(&painter, inner, colours, text);
     }

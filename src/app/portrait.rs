@@ -62,6 +62,8 @@ pub(super) struct Marks {
 /// clinical decisions. No name, which may be a patient's.
 #[derive(Clone, Debug)]
 pub(super) struct Alone {
+    /// What it shows.
+    pub(super) title: String,
     /// The colours of a map.
     pub(super) legend: Option<overlay::Legend>,
     /// The array that has the colours.
@@ -72,11 +74,11 @@ impl Marks {
     fn write(&self, ui: &egui::Ui, rect: egui::Rect, camera: &Camera) {
         let axes = self.axes;
         measure::draw(ui, rect, camera, &self.measures);
-        let Some(Alone { legend, array }) = &self.alone else {
+        let Some(Alone { title, legend, array }) = &self.alone else {
             return overlay::scale_and_axes(ui, rect, camera, axes);
         };
         let writing =
-            Writing { title: "", name: Some(""), camera, axes, legend: legend.clone(), array: array.as_ref() };
+            Writing { title, name: Some(""), camera, axes, legend: legend.clone(), array: array.as_ref(), is_alone: true };
         overlay::show(ui, rect, &writing);
     }
 }

@@ -7,8 +7,9 @@ use egui_plot::{
     AxisHints, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine,
 };
 
+use super::assist::heading;
 use super::control::Setting;
-use super::row::remark;
+use super::row::{remark, wrapped};
 use super::still_plot::still;
 use crate::language::{decimal, grouped};
 use crate::pipeline::filter::Filter;
@@ -17,8 +18,11 @@ use crate::pipeline::response::{SmoothingResponse, ThreeDigits, eigenvalue, wave
 use crate::pipeline::settings::{Smoothing, Window};
 use crate::say;
 
-/// Height of the picture, in points.
+/// Height of the picture in the panel, in points.
 const HEIGHT: f32 = 128.0;
+
+/// Lines below the picture for whoever presents.
+const LINES: f32 = 4.0;
 
 /// What is shown of the axis of eigenvalues, as powers of ten: from half of the narrowest pass band to the roughest.
 const RANGE: (f64, f64) = (-3.3, 0.301);
@@ -56,6 +60,23 @@ struct Tried {
     laplacian: bool,
 }
 
+impl Tried {
+    /// What the window keeps; at first the wave of which half is left.
+    fn of(ui: &Ui, response: &SmoothingResponse) -> Self {
+        let log_k = response.half_gain.map_or(-1.0, libm::log10);
+        let first = Self { log_k, windows: false, last_term: None, laplacian: false };
+        ui.data(|data| data.get_temp(Self::id())).unwrap_or(first)
+    }
+
+    fn keep(self, ui: &Ui) {
+        ui.data_mut(|data| data.insert_temp(Self::id(), self));
+    }
+
+    fn id() -> Id {
+        Id::unique("tried wave")
+    }
+}
+
 /// What is drawn.
 struct Curves<'a> {
     filter: &'a Filter,
@@ -78,14 +99,7 @@ pub(super) fn show(ui: &mut Ui, settings: &Smoothing, scale: Scale, averaged: &m
     let text = sentence(&response, settings.adapt);
     remark(ui, &text);
     let head = CollapsingHeader::new(say!("panel-response")).id_salt("Response").show_unindented(ui, |ui| {
-        let id = Id::unique("tried wave");
-        let first = response.half_gain.map_or(-1.0, libm::log10);
-        let mut tried = ui.data(|data| data.get_temp(id)).unwrap_or(Tried {
-            log_k: first,
-            windows: false,
-            last_term: None,
-            laplacian: false,
-        });
+        let mut tried = Tried::of(ui, &response);
         let others = if tried.windows { others(ui, settings) } else { Vec::new() };
         let curves = Curves {
             filter: &filter,
@@ -93,15 +107,27 @@ pub(super) fn show(ui: &mut Ui, settings: &Smoothing, scale: Scale, averaged: &m
             last_term: tried.last_term.filter(|&last| last < settings.iterations),
             passes: tried.laplacian.then_some(settings.iterations),
         };
-        let (plot, dragged) = picture(ui, &curves, &response, scale, tried.log_k);
-        plot.widget_info(|| WidgetInfo::labeled(Role::Image, true, &text));
-        tried.log_k = dragged.unwrap_or(tried.log_k);
+        picture(ui, &curves, (&response, &text), scale, &mut tried, HEIGHT);
         wave(ui, &filter, &response, scale, settings.adapt, &mut tried);
         laplacian(ui, &filter, settings, scale, &mut tried, averaged);
         terms(ui, &filter, settings.iterations, &mut tried.last_term);
-        ui.data_mut(|data| data.insert_temp(id, tried));
+        tried.keep(ui);
     });
     head.header_response.on_hover_text(say!("panel-response-help"));
+}
+
+/// Shows the curve as large as there is room, for whoever presents.
+pub(super) fn present(ui: &mut Ui, settings: &Smoothing, scale: Scale) {
+    let filter = filter(ui, settings);
+    let response = SmoothingResponse::new(&filter, settings.pass_band, scale.edge_length.unwrap_or(0.0));
+    let text = sentence(&response, settings.adapt);
+    heading(ui, &say!("panel-response"));
+    let mut tried = Tried::of(ui, &response);
+    let curves = Curves { filter: &filter, others: &[], last_term: None, passes: None };
+    let height = ui.available_height() - LINES * ui.text_style_height(&egui::TextStyle::Body);
+    picture(ui, &curves, (&response, &text), scale, &mut tried, height.max(HEIGHT));
+    tried.keep(ui);
+    wrapped(ui, &text, |text| text);
 }
 
 /// The wave that is tried: its length, what is left of it, and of the one around the thinnest vessel.
@@ -245,14 +271,16 @@ fn sentence(response: &SmoothingResponse, adapts: bool) -> String {
     }
 }
 
-/// Draws the curve, and says where it was dragged to, as a power of ten of the eigenvalue.
+/// Draws the curve so high, with its sentence for assistive tools, and follows the wave that is dragged.
 fn picture(
     ui: &mut Ui,
     curves: &Curves<'_>,
-    response: &SmoothingResponse,
+    (response, sentence): (&SmoothingResponse, &str),
     scale: Scale,
-    log_k: f64,
-) -> (egui::Response, Option<f64>) {
+    tried: &mut Tried,
+    height: f32,
+) {
+    let log_k = tried.log_k;
     let Curves { filter, others, last_term, passes } = *curves;
     let edge_length = scale.edge_length;
     let visuals = ui.visuals();
@@ -284,7 +312,7 @@ fn picture(
         .tick_label_font(font)
         .min_thickness(36.0);
     let plot = still(Plot::new("response"))
-        .height(HEIGHT)
+        .height(height)
         .show_grid([false, true])
         .x_grid_spacer(move |_| marks.clone())
         .y_grid_spacer(|_| [0.0, 0.5, 1.0].map(|value| GridMark { value, step_size: 0.5 }).to_vec())
@@ -334,7 +362,8 @@ fn picture(
         let moves = plot.response().dragged() || plot.response().clicked();
         plot.pointer_coordinate().filter(|_| moves).map(|place| place.x.clamp(RANGE.0, RANGE.1))
     });
-    (shown.response, shown.inner)
+    shown.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, sentence));
+    tried.log_k = shown.inner.unwrap_or(log_k);
 }
 
 /// Where the axis has its labels: at round lengths, or at powers of ten where lengths are not known.

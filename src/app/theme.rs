@@ -95,6 +95,14 @@ pub(super) fn suit(ctx: &egui::Context, has_finger: bool, moves: bool) {
     });
 }
 
+/// Below this width in points a window is that of a phone: the views stack, and the panel becomes a sheet at the bottom.
+const NARROW: f32 = 720.0;
+
+/// Whether the window is that of a phone.
+pub(super) fn is_narrow(ctx: &egui::Context) -> bool {
+    ctx.content_rect().width() < NARROW
+}
+
 /// Whether controls are as large as a finger needs them.
 pub(super) fn suits_finger(ctx: &egui::Context) -> bool {
     ctx.global_style().spacing.interact_size.y >= FINGER

@@ -65,7 +65,7 @@ test("the autopilot steers the wire to the target, and the log is saved", { time
   assert.match(lines[0], /time_s/);
   assert(lines.length > 100, `${lines.length} samples`);
 
-  await press(page, "button", "Trial");
+  await press(page, "button", "Prepare");
   await twin(page, "img", /shaded/i).waitFor({ state: "attached" });
   assert.deepEqual(wrong, []);
 });

@@ -85,7 +85,7 @@ test("the trial's engine dies: the surface stays, and a new trial starts", { tim
   const [trial] = workersOn(page, "trial");
   await kill(trial);
   await says(page, /^The trial stopped \(.+\)\. The surface is still open; start again\.$/);
-  await press(page, "button", "Trial");
+  await press(page, "button", "Prepare");
   assert.equal(shownTriangles(await settled(page)), shown);
   await press(page, "button", "Trial");
   await atEntry(page);

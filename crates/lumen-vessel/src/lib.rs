@@ -30,7 +30,7 @@ mod zones;
 
 pub use zones::Zone;
 
-use lumen_message::messages;
+use lumen_message::{grouped, messages};
 use serde::{Deserialize, Serialize};
 
 pub use calibre::{Calibre, Subject};
@@ -56,7 +56,12 @@ messages! {
         "vessels-error-no-inside" NoInside {
             /// Triangles.
             triangles: usize,
-        } => "the surface has no inside: of its {triangles} triangles none faces another",
+        } => {
+            match triangles {
+                1 => "the surface has no inside: it is a single triangle".to_owned(),
+                _ => format!("the surface has no inside: of its {} triangles none faces another", grouped(triangles)),
+            }
+        },
         /// What is inside is flat.
         "vessels-error-sheet" Sheet {
             /// Balls that overlap.

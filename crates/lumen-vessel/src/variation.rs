@@ -251,6 +251,32 @@ pub(super) fn variations(along: Along<'_>) -> Vec<Variation> {
     found
 }
 
+/// The narrowest place of a branch beside the diameter that it has at the arc length `reference_mm`; `None` where no place of
+/// it is one vessel.
+pub(super) fn narrowest_beside(along: Along<'_>, reference_mm: f64) -> Option<Variation> {
+    let all: Vec<Sample> = (0..along.standings.len()).filter_map(|i| Sample::new(along, i)).collect();
+    let peak = (0..all.len()).min_by(|&a, &b| all[a].diameter.total_cmp(&all[b].diameter))?;
+    let reference = all.iter().min_by(|a, b| (a.at - reference_mm).abs().total_cmp(&(b.at - reference_mm).abs()))?;
+    let (narrowest, part) = (all[peak], all[peak].diameter / reference.diameter);
+    let (first, last) = ends(&all, Kind::Narrower, peak, |_| reference.diameter);
+    let (from_mm, to_mm) = (all[first].at, all[last].at);
+    let found = Variation {
+        kind: Kind::Narrower,
+        degree_percent: 100.0 * (1.0 - part),
+        area_percent: 100.0 * (1.0 - part * part),
+        reduced_degree_percent: None,
+        diameter_mm: narrowest.diameter,
+        reference_mm: reference.diameter,
+        sides: [Some(Side { abscissa_mm: reference.at, diameter_mm: reference.diameter }), None],
+        from_mm,
+        to_mm,
+        length_mm: to_mm - from_mm,
+        abscissa_mm: narrowest.at,
+        at_mm: narrowest.at_mm,
+    };
+    Some(found.reduced(along))
+}
+
 /// A station where the branch is one vessel.
 #[derive(Clone, Copy)]
 struct Sample {

@@ -125,3 +125,39 @@ fn a_coarctation_is_told_by_its_narrowing_first() {
     let reference = narrower.reference().to_string();
     assert!(reference.starts_with("11.2") && reference.contains(" of 19.99 mm"), "{reference}");
 }
+
+#[test]
+fn the_narrowest_place_is_measured_beside_a_chosen_one() {
+    // From 8 mm at one end to 3.2 mm at the other, which no side tells as a narrowing, with a stenosis of 50 % at 30 mm.
+    let (bell, _) = bell(-0.5);
+    let taper = |z: f64| 4.0 - 0.04 * z;
+    let plain = branches(&tube(64, 240, 60.0, |z| taper(f64::from(z)) as f32));
+    let stenosed = branches(&tube(64, 240, 60.0, |z| (bell(f64::from(z)) / 3.0 * taper(f64::from(z))) as f32));
+    let ([plain], [stenosed]) = (&plain[..], &stenosed[..]) else { panic!("one vessel each") };
+    assert_eq!(plain.uneven(), [None, None]);
+    for (branch, is_stenosed) in [(plain, false), (stenosed, true)] {
+        for at in [10.0, 50.0] {
+            let found = branch.narrowest_beside(at).unwrap();
+            // The branch may begin at either end.
+            let z = |at: f64| {
+                let i = branch.abscissas_mm.iter().position(|&other| f64::from(other) >= at).unwrap();
+                f64::from(branch.at_mm[i][2])
+            };
+            let reference = 2.0 * taper(z(at)) * if is_stenosed { bell(z(at)) / 3.0 } else { 1.0 };
+            assert!((found.reference_mm - reference).abs() <= 0.1, "{found:?} beside {reference} mm");
+            assert!((found.sides[0].unwrap().abscissa_mm - at).abs() <= 1.0, "{found:?}");
+            if is_stenosed {
+                assert!((found.diameter_mm - taper(30.0)).abs() <= 0.15, "{found:?}");
+                assert!((f64::from(found.at_mm[2]) - 30.0).abs() <= 3.0, "{found:?}");
+            }
+            let part = found.diameter_mm / found.reference_mm;
+            assert!((found.degree_percent - 100.0 * (1.0 - part)).abs() < 1e-9 && found.degree_percent >= 0.0);
+            assert!((found.area_percent - 100.0 * (1.0 - part * part)).abs() < 1e-9);
+            assert!((found.reduced_degree_percent.unwrap() - found.degree_percent).abs() < 1e-4, "the same surface");
+        }
+    }
+    // Beyond the end it is the last place that is one vessel; beside itself it is not narrower.
+    let narrowest = stenosed.narrowest_beside(0.0).unwrap();
+    assert_eq!(stenosed.narrowest_beside(-5.0), Some(narrowest.clone()));
+    assert_eq!(stenosed.narrowest_beside(narrowest.abscissa_mm).unwrap().degree_percent, 0.0);
+}

@@ -132,7 +132,6 @@ pub(super) fn footer(ui: &mut Ui, document: &str, shared: &str, slow: &str, is_n
             ui.add(egui::Label::new(RichText::new(&text).small().weak()).truncate()).on_hover_text(text.clone());
             ui.label(RichText::new(say!("about-not-clinical")).small().weak());
         } else {
-            ui.label(RichText::new(say!("about-not-clinical")).small().weak());
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 ui.add(egui::Label::new(RichText::new(&text).small().weak()).truncate()).on_hover_text(text.clone());
             });

@@ -25,13 +25,13 @@ impl Panel for CompareView {
 
     fn entry(&self, now: Now<'_>) -> Option<Entry> {
         Some(Entry {
-            group: Group::Modes,
+            group: Group::Tabs,
             label: Key("app-compare"),
             help: Key("app-compare-help"),
             key: Some(egui::Key::C),
             action: Action::Compare,
-            is_open: now.state.comparison.is_open(),
-            is_enabled: now.mode <= Mode::Compare,
+            is_open: now.mode == Mode::Compare,
+            is_enabled: now.mode != Mode::Scan,
         })
     }
 

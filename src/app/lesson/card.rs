@@ -19,7 +19,7 @@ const ROOMY: f32 = 480.0;
 const NARROWEST: f32 = 260.0;
 
 /// Shows the card of the step that is given.
-pub(super) fn show(ui: &mut Ui, given: &Given, has_links: bool, asked: &mut Vec<Ask>) {
+pub(super) fn show(ui: &mut Ui, given: &Given, has_links: bool, is_measuring: bool, asked: &mut Vec<Ask>) {
     let mut ask = |wanted: bool, action: Action| {
         if wanted {
             asked.push(Ask::Lesson(action));
@@ -61,12 +61,12 @@ pub(super) fn show(ui: &mut Ui, given: &Given, has_links: bool, asked: &mut Vec<
         match &step.question {
             // Side by side where there is room: a question below the fold is not asked.
             Some(question) if ui.available_width() > WIDEST => ui.columns(2, |columns| {
-                told(&mut columns[0], step);
+                told(&mut columns[0], step, is_measuring);
                 asks(&mut columns[1], question, given.is_answered, &mut ask);
             }),
             question => {
                 ui.set_max_width(ui.available_width().min(WIDEST));
-                told(ui, step);
+                told(ui, step, is_measuring);
                 if let Some(question) = question {
                     asks(ui, question, given.is_answered, &mut ask);
                 }
@@ -75,11 +75,14 @@ pub(super) fn show(ui: &mut Ui, given: &Given, has_links: bool, asked: &mut Vec<
     });
 }
 
-fn told(ui: &mut Ui, step: &Step) {
+fn told(ui: &mut Ui, step: &Step, is_measuring: bool) {
     heading(ui, &step.title);
     wrapped(ui, &step.text, |text| text);
     if !step.look.is_empty() {
         wrapped(ui, &say!("lesson-look", what = &step.look), RichText::strong);
+        // Of one height, or what stands below would move.
+        let measuring = if is_measuring { say!("lesson-measuring") } else { String::new() };
+        ui.label(RichText::new(measuring).small().color(ui.visuals().warn_fg_color));
     }
 }
 

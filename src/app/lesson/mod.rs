@@ -58,6 +58,9 @@ pub(super) struct Stood {
     pub(super) options: ViewOptions,
 }
 
+/// From this width on of the window the card stands at its side, in points.
+const BESIDE: f32 = 1000.0;
+
 /// A lesson that is given.
 #[derive(Clone, Debug)]
 pub struct Given {
@@ -198,7 +201,12 @@ impl Panel for Lessons {
     }
 
     fn place(&self, ui: &Ui, _: Now<'_>) -> Place {
-        Place::Foot((ui.available_height() * 0.28).clamp(120.0, 210.0))
+        // Never over the views: what it tells one to look at is there.
+        if ui.available_width() >= BESIDE {
+            Place::Side(280.0, 240.0..=440.0)
+        } else {
+            Place::Foot((ui.available_height() * 0.28).clamp(120.0, 210.0))
+        }
     }
 
     fn escape(&self, _: Now<'_>, layer: Layer) -> Option<Ask> {
@@ -207,7 +215,8 @@ impl Panel for Lessons {
 
     fn show(&mut self, ui: &mut Ui, now: Now<'_>, asked: &mut Vec<Ask>) {
         if let Some(given) = &self.open {
-            card::show(ui, given, now.has_links, asked);
+            let is_measuring = now.state.is_measuring() && (now.state.calibre().is_none() || now.state.is_deciding());
+            card::show(ui, given, now.has_links, is_measuring, asked);
         }
     }
 

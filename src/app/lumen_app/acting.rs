@@ -5,12 +5,12 @@ use egui::{Context, Key, Modifiers, Ui};
 use super::LumenApp;
 use crate::app::action::Action;
 use crate::app::keys::{self, Keys};
-use crate::app::mode::{Acting, Beside, Entry, Layer, Mode, Panel};
+use crate::app::mode::{Acting, Beside, Entry, Group, Layer, Mode, Panel};
 use crate::app::record::Sight;
 use crate::app::sharing::Sharing;
 use crate::app::sheets::{self, Sheet};
 use crate::app::views::Spot;
-use crate::app::{lesson, record, shortcuts, theme};
+use crate::app::{lesson, measure, record, shortcuts, theme, trial, vessels};
 use crate::pipeline::settings::{Keep, Settings};
 use crate::say;
 
@@ -46,9 +46,36 @@ impl LumenApp {
         self.act_on_all(action, ctx);
     }
 
-    /// What modes and panels have in the bar.
+    /// What modes and panels have in the bar. The first tab is open where no other is.
     pub(super) fn entries(&self, mode: Mode) -> Vec<Entry> {
-        self.panels.all().into_iter().filter_map(|panel| panel.entry(self.now(mode))).collect()
+        let mut entries: Vec<Entry> =
+            self.panels.all().into_iter().filter_map(|panel| panel.entry(self.now(mode))).collect();
+        let is_open = !entries.iter().any(|entry| entry.group == Group::Tabs && entry.is_open);
+        let prepare = Entry {
+            group: Group::Tabs,
+            label: crate::language::Key("app-prepare"),
+            help: crate::language::Key("app-prepare-help"),
+            key: None,
+            action: Action::Prepare,
+            is_open,
+            is_enabled: true,
+        };
+        entries.insert(0, prepare);
+        entries
+    }
+
+    /// Leaves the trial, the comparison, and what stands beside the views. A scan stays.
+    fn prepare(&mut self, ctx: &Context) {
+        if self.panels.trial.trial.is_open() {
+            self.act(Action::Trial(trial::Action::Close), ctx);
+        }
+        self.state.comparison.set_open(false);
+        let beside = match self.beside {
+            Beside::Nothing => return,
+            Beside::Vessels => Action::Vessels(vessels::Action::Toggle),
+            Beside::Measure => Action::Measure(measure::action::Action::Toggle),
+        };
+        self.act(beside, ctx);
     }
 
     /// The lines of the sheet of keys.
@@ -122,6 +149,7 @@ impl LumenApp {
         let keep = self.state.settings.keep;
         let state = &mut self.state;
         match action {
+            Action::Prepare => self.prepare(ctx),
             Action::OpenNext => {
                 state.notices.take_away();
                 self.platform.open_next();
@@ -159,6 +187,7 @@ impl LumenApp {
                 self.views.spot = None;
                 self.views.fly(at_mm.into(), height_mm);
             }
+            Action::Mark { at_mm, label } => self.views.spot = Some(Spot { at: at_mm.into(), label }),
             Action::Unmark => self.views.spot = None,
             Action::Show(options) => self.views.options = options,
             Action::ChoosePieces => {

@@ -11,6 +11,9 @@ use crate::app::views::{Clicked, Over, Subject};
 use crate::app::{bar, collapses, invitation, panel, row, theme, verdict};
 use crate::pipeline::settings::Settings;
 
+/// From this width on there is room for a plot beside the views while someone presents, in points.
+const ROOM_TO_PRESENT: f32 = 800.0;
+
 impl LumenApp {
     /// Shows the bars and the panel, and does what is asked for there.
     pub(super) fn controls(&mut self, ui: &mut Ui) {
@@ -22,7 +25,6 @@ impl LumenApp {
             let shown = bar::Shown {
                 mode,
                 entries: &entries,
-                is_narrow,
                 is_presenting: self.presenter.is_on(),
                 keeps_surface,
                 has_links: self.has_links,
@@ -53,11 +55,15 @@ impl LumenApp {
             // Below all else: where the thumbs are of whoever holds a phone.
             Panel::bottom("pads").frame(bar).exact_size(height).show(ui, |ui| panel.show_thumbs(ui));
         }
-        let feet = self.placed(ui, mode, |place| matches!(place, Place::Foot(_)));
+        let feet = self.placed(ui, mode, |place| matches!(place, Place::Foot(_) | Place::Side(..)));
         for (index, place) in &feet {
-            let Place::Foot(height) = *place else { continue };
             let card = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
-            self.show_panel(ui, *index, mode, |id| Panel::bottom(id).frame(card).exact_size(height), &mut asked);
+            let frame = |id| match place.clone() {
+                Place::Side(width, range) => Panel::right(id).resizable(true).default_size(width).size_range(range),
+                Place::Foot(height) => Panel::bottom(id).exact_size(height),
+                Place::Panel | Place::Right(..) | Place::Below(..) => Panel::bottom(id),
+            };
+            self.show_panel(ui, *index, mode, |id| frame(id).frame(card), &mut asked);
         }
         let takes_panel = self.placed(ui, mode, |place| *place == Place::Panel).pop().map(|(index, _)| index);
         let takes_panel = takes_panel.filter(|_| mode == Mode::Method);
@@ -219,6 +225,12 @@ impl LumenApp {
         Panel::bottom("dock").frame(margin).show(ui, |ui| {
             row::docked(ui, |ui| self.dock(ui));
         });
+        if ui.available_width() >= ROOM_TO_PRESENT && self.state.settings.smoothing.iterations > 0 {
+            let width = 0.36 * ui.available_width();
+            Panel::right("response").frame(margin).exact_size(width).show(ui, |ui| {
+                panel::present_response(ui, &self.state);
+            });
+        }
     }
 
     /// The panels, to be changed, and what they may look at.

@@ -33,9 +33,6 @@ use crate::haptics::service::DeviceCommand;
 use crate::render::{Camera, DeviceHealth, Fault};
 use crate::say;
 
-/// Below this width in points the views stack and the panel becomes a sheet at the bottom.
-const NARROW: f32 = 720.0;
-
 /// A window that is so many times as high as wide has the panel below the views, too: a tablet that is held upright.
 const UPRIGHT: f32 = 1.2;
 
@@ -292,7 +289,7 @@ impl eframe::App for LumenApp {
         let is_asked = by_key || self.views.before_is_held || self.views.options.before;
         self.views.show_before = is_asked || self.state.awaits_levels();
         let window = ui.available_size();
-        self.is_narrow = window.x < NARROW;
+        self.is_narrow = theme::is_narrow(&ctx);
         self.is_stacked = self.is_narrow || window.y > UPRIGHT * window.x;
         self.has_links = self.platform.address().is_some();
         self.controls(ui);
@@ -306,6 +303,9 @@ impl eframe::App for LumenApp {
         if self.views.is_flying() {
             ctx.request_repaint();
         }
+        self.act_on_all(played, &ctx);
+        let mode = self.mode();
+        let played = self.panels.playback.follow(&self.state, mode, now_s);
         self.act_on_all(played, &ctx);
         self.state.show_level();
         self.centre(ui);

@@ -185,13 +185,13 @@ impl Panel for Measuring {
     fn entry(&self, now: Now<'_>) -> Option<Entry> {
         let is_open = now.shows(Beside::Measure);
         Some(Entry {
-            group: Group::Beside,
+            group: Group::Tabs,
             label: Key("app-measure"),
             help: Key("app-measure-help"),
             key: Some(egui::Key::M),
             action: TOGGLE,
             is_open,
-            is_enabled: now.has_level() && now.mode == Mode::Method || is_open,
+            is_enabled: now.has_level() && now.mode != Mode::Scan || is_open,
         })
     }
 

@@ -10,6 +10,7 @@ mod surface;
 
 pub(super) use self::dock::dock;
 pub(super) use self::result::result;
+pub(super) use self::smooth::present_response;
 pub(super) use self::steps::STEPS;
 use super::action::Action;
 use super::document::Document;

@@ -10,6 +10,7 @@ use crate::app::state::State;
 use crate::app::views::Views;
 use crate::app::{control, response, theme};
 use crate::language::tell;
+use crate::pipeline::report::Report;
 use crate::pipeline::settings::table::{self, Kind};
 use crate::pipeline::settings::{Preset, Settings, Smoothing};
 use crate::say;
@@ -77,14 +78,23 @@ fn filter(ui: &mut Ui, settings: &mut Settings) {
     });
 }
 
+/// What is known of the surface.
+fn scale(report: Option<&Report>) -> response::Scale {
+    let edge_length = report.and_then(|report| report.smoothing_response).map(|response| response.edge_length_mm);
+    let lumen = report.and_then(|report| report.smoothed_shape.as_ref()?.smallest_lumen);
+    response::Scale { edge_length, thinnest: lumen.map(|lumen| lumen.diameter_mm) }
+}
+
+/// Shows what the filter lets through, large, for whoever presents.
+pub(in crate::app) fn present_response(ui: &mut Ui, state: &State) {
+    response::present(ui, &state.settings.smoothing, scale(measured(state.document.as_ref())));
+}
+
 /// What the filter lets through, and where less was smoothed.
 fn effect(ui: &mut Ui, smoothing: &Smoothing, state: &State, asked: &mut Vec<Action>) {
     let report = measured(state.document.as_ref());
-    let edge_length = report.and_then(|report| report.smoothing_response).map(|response| response.edge_length_mm);
-    let lumen = report.and_then(|report| report.smoothed_shape.as_ref()?.smallest_lumen);
-    let thinnest = lumen.map(|lumen| lumen.diameter_mm);
     let mut shows_averaged = state.shows_averaged;
-    response::show(ui, smoothing, response::Scale { edge_length, thinnest }, &mut shows_averaged);
+    response::show(ui, smoothing, scale(report), &mut shows_averaged);
     if shows_averaged != state.shows_averaged {
         asked.push(Action::Average(shows_averaged));
     }

@@ -17,6 +17,8 @@ pub enum Action {
     Clear(bool),
     /// Save the surface as it turns.
     Turntable,
+    /// Save the surface as it is reduced and comes back.
+    Film,
     /// Give up what is being drawn.
     Cancel,
 }

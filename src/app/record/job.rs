@@ -16,6 +16,7 @@ use crate::app::deviating::Deviating;
 use crate::app::document::Document;
 use crate::app::graphics_error::{picture_error, surface_error};
 use crate::app::options::Colours;
+use crate::app::playback;
 use crate::app::portrait::{
     Alone, Behind, Marks, Portrait, Pose, SIZE, Shown, camera, meaning, pixels, without_ground,
 };
@@ -24,6 +25,7 @@ use crate::app::state::State;
 use crate::app::views::legend;
 use crate::engine::{Command, Frame, Link};
 use crate::io::Axes;
+use crate::language::decimal;
 use crate::mesh::TriMesh;
 use crate::pipeline::settings::Keep;
 use crate::render::{Camera, Look, Picture, PictureError, Style, SurfaceError};
@@ -50,10 +52,13 @@ pub(super) enum JobError {
 /// A surface, with a number for each vertex if it is coloured.
 type Seat = (Arc<TriMesh>, Option<Arc<[f32]>>);
 
+/// Makes a surface once it is its turn: a film has as many as frames.
+type MakeSeat = Box<dyn FnOnce() -> Seat>;
+
 /// A picture to be drawn.
 struct Shot {
     /// Of which surface; `None` for the one before.
-    seat: Option<Seat>,
+    seat: Option<MakeSeat>,
     pose: Pose,
     caption: String,
 }
@@ -69,7 +74,10 @@ enum What {
     Picture {
         is_clear: bool,
     },
-    Turntable,
+    /// Frames of a picture that moves.
+    Frames {
+        is_film: bool,
+    },
 }
 
 /// Pictures on their way to a file.
@@ -123,7 +131,7 @@ impl Job {
             };
             let pose = shown.pose(seen, map, document.import.axes, &sight.measures);
             let meaning = map.as_ref().map_or(String::new(), |map| meaning(map, colours == Colours::Calibre));
-            Shot { seat: Some(seat), pose, caption: shown.caption(&meaning) }
+            Shot { seat: Some(Box::new(move || seat)), pose, caption: shown.caption(&meaning) }
         };
         let shots =
             Shown::ALL.into_iter().filter(|&shown| shown != Shown::Colours || map.is_some()).map(shot).collect();
@@ -141,7 +149,7 @@ impl Job {
     ) -> Result<Self, JobError> {
         let (seat, pose) = as_seen(document, sight, size(sight.views.aspect(), PICTURE * scale), scale as f32);
         let grounds = if chosen.is_clear { &[Behind::White, Behind::Black][..] } else { &[Behind::Ground] };
-        let mut seat = Some(seat);
+        let mut seat: Option<MakeSeat> = Some(Box::new(move || seat));
         let shot = |&behind: &Behind| Shot {
             seat: seat.take(),
             pose: Pose { behind, ..pose.clone() },
@@ -168,13 +176,41 @@ impl Job {
         };
         // From as far as shows all of it all around.
         let distance = (0..FRAMES).map(|i| turned(i).distance).fold(0.0, f32::max);
-        let mut seat = Some(seat);
+        let mut seat: Option<MakeSeat> = Some(Box::new(move || seat));
         let shot = |i: u32| {
             let pose = Pose { camera: Camera { distance, ..turned(i) }, ..pose.clone() };
             Shot { seat: seat.take(), pose, caption: String::new() }
         };
         let shots = (0..FRAMES).map(shot).collect();
-        Self::new(device, What::Turntable, format!("{}-turntable.png", document.stem()), shots)
+        Self::new(device, What::Frames { is_film: false }, format!("{}-turntable.png", document.stem()), shots)
+    }
+
+    /// The surface as it is reduced to one triangle in a thousand and comes back, as the first view looks at it, each triangle
+    /// with its own normal.
+    pub(super) fn film(
+        device: &egui_wgpu::RenderState,
+        document: &Document,
+        sight: &Sight<'_>,
+    ) -> Result<Self, JobError> {
+        let (_, pose) = as_seen(document, sight, size(sight.views.aspect(), TURNTABLE), 1.0);
+        let levels = document.levels.as_ref().map(|(_, levels)| levels.clone()).unwrap_or_default();
+        let style = Style { map: None, labels: false, ..pose.style };
+        let shot = |i: u32| {
+            let steps = levels.steps_to(playback::count(&levels, f64::from(i) / f64::from(FRAMES)));
+            let count = levels.triangles_after(steps);
+            let percent = 100.0 * (1.0 - count as f64 / levels.triangles.len().max(1) as f64);
+            let title = say!("playback-level", percent = decimal(percent, 1), count = count);
+            let marks = Marks { alone: Some(Alone { title, legend: None, array: None }), ..pose.marks.clone() };
+            let levels = levels.clone();
+            let seat = move || {
+                let mesh = TriMesh { positions: levels.positions.clone(), triangles: levels.triangles_at(steps) };
+                (Arc::new(mesh), None)
+            };
+            let pose = Pose { look: Look::Flat, style, marks, ..pose.clone() };
+            Shot { seat: Some(Box::new(seat)), pose, caption: String::new() }
+        };
+        let shots = (0..FRAMES).map(shot).collect();
+        Self::new(device, What::Frames { is_film: true }, format!("{}-reduction.png", document.stem()), shots)
     }
 
     /// What is being drawn, and the part of it that is done.
@@ -182,7 +218,8 @@ impl Job {
         let what = match self.what {
             What::Report { .. } => say!("record-drawing-report"),
             What::Picture { .. } => say!("record-drawing-picture"),
-            What::Turntable => say!("record-drawing-turntable"),
+            What::Frames { is_film: false } => say!("record-drawing-turntable"),
+            What::Frames { is_film: true } => say!("record-drawing-film"),
         };
         (what, (self.count - self.shots.len()) as f32 / self.count.max(1) as f32)
     }
@@ -211,7 +248,7 @@ impl Job {
             }
         }
         let Some(Shot { seat, pose, caption }) = self.shots.pop_front() else { return Ok(true) };
-        if let Some((mesh, scalars)) = seat {
+        if let Some((mesh, scalars)) = seat.map(|make| make()) {
             let seated = self.portrait.seat(&mesh, scalars.as_deref());
             seated.map_err(|error| say!("record-cannot-draw", why = surface_error(&error)))?;
         }
@@ -225,7 +262,7 @@ impl Job {
     /// A picture has come back.
     fn take(&mut self, caption: String, picture: Picture, state: &mut State, link: &mut dyn Link) {
         match &self.what {
-            What::Turntable => {
+            What::Frames { .. } => {
                 let frame = frame(String::new(), pixels(picture));
                 self.send(frame, FRAMES, false, state, link);
             }
@@ -259,7 +296,7 @@ impl Job {
                     self.send(frame(String::new(), pixels), 1, is_clear, state, link);
                 }
             }
-            What::Turntable => {}
+            What::Frames { .. } => {}
         }
     }
 
@@ -297,7 +334,7 @@ fn as_seen(document: &Document, sight: &Sight<'_>, size: [u32; 2], scale: f32) -
     let look = if views.options.flat { Look::Flat } else { Look::Shaded };
     let array = arrays::chosen(document, colours).filter(|_| scalars.is_some());
     let map = style.map.filter(|_| array.is_none() && !style.labels);
-    let alone = Alone { legend: map.map(|map| legend(map, colours)), array: array.cloned() };
+    let alone = Alone { title: String::new(), legend: map.map(|map| legend(map, colours)), array: array.cloned() };
     let measures = sight.measures.clone();
     let marks = Marks { axes: document.import.axes, scale, theme, measures, alone: Some(alone) };
     let style = Style { raking: views.options.raking, occlusion: views.options.occlusion, ..style };

@@ -87,7 +87,7 @@ impl Record {
             Action::NameFile(names_file) => self.chosen.names_file = names_file,
             Action::Clear(is_clear) => self.chosen.is_clear = is_clear,
             Action::Cancel => self.cancel(state),
-            Action::Report(_) | Action::Picture(_) | Action::Turntable => {
+            Action::Report(_) | Action::Picture(_) | Action::Turntable | Action::Film => {
                 self.cancel(state);
                 let Some(document) = state.document.as_ref().filter(|document| document.shown.is_some()) else {
                     state.tell(&say!("record-nothing"));
@@ -115,6 +115,7 @@ impl Record {
                 Job::report(device, document, state.settings.keep, format, heading, sight)
             }
             Action::Picture(scale) => Job::picture(device, document, sight, scale, self.chosen),
+            Action::Film => Job::film(device, document, sight),
             _ => Job::turntable(device, document, state.settings.keep, sight),
         };
         begun.map_err(|error| say!("record-cannot-draw", why = error.to_string()))

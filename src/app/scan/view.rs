@@ -102,6 +102,7 @@ impl ScanView {
             axes: scan.opened.axes,
             legend: None,
             array: None,
+            is_alone: false,
         };
         overlay::show(ui, rect, &writing);
     }
@@ -165,15 +166,11 @@ impl ScanView {
             font.clone(),
             Color32::LIGHT_GRAY,
         );
-        let place = corner.right_bottom();
-        halo::text(
-            &ui.painter_at(rect),
-            place,
-            Align2::RIGHT_BOTTOM,
-            &overlay::NOT_CLINICAL.say(),
-            font,
-            Color32::LIGHT_GRAY,
-        );
+        if theme::is_narrow(ui.ctx()) {
+            let words = overlay::NOT_CLINICAL.say();
+            let place = corner.right_bottom();
+            halo::text(&ui.painter_at(rect), place, Align2::RIGHT_BOTTOM, &words, font, Color32::LIGHT_GRAY);
+        }
     }
 }
 

@@ -103,15 +103,14 @@ impl Panel for TrialPanel {
     }
 
     fn entry(&self, now: Now<'_>) -> Option<Entry> {
-        let is_open = self.trial.is_open();
         Some(Entry {
-            group: Group::Modes,
+            group: Group::Tabs,
             label: Key("app-trial"),
             help: Key("app-trial-help"),
             key: None,
             action: Action::ToggleTrial,
-            is_open,
-            is_enabled: now.has_level() && now.mode != Mode::Scan || is_open,
+            is_open: now.mode == Mode::Trial,
+            is_enabled: now.has_level() && now.mode != Mode::Scan,
         })
     }
 

@@ -1,14 +1,16 @@
 //! The verdict as it is shown: a strip above the views, of the same height whatever it says.
 
+use std::sync::Arc;
+
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Align, Color32, Context, FontSelection, Layout, RichText, Role, Shape, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align, Color32, Context, FontSelection, Id, Layout, RichText, Role, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::findings::{look, take, verdict};
 use crate::app::action::Action;
 use crate::app::assist::name;
-use crate::app::menus::menu;
+use crate::app::menus::card;
 use crate::app::options::{Colours, ViewOptions};
-use crate::app::row::remark;
+use crate::app::row::wrapped;
 use crate::app::state::State;
 use crate::app::theme;
 use crate::app::vessels;
@@ -18,6 +20,9 @@ use crate::say;
 
 /// Opens the vessels with what is not measured.
 const SHOW_UNMEASURED: Action = Action::Vessels(vessels::Action::ShowUnmeasured);
+
+/// Width of the list of what was found, in points.
+const WIDEST: f32 = 320.0;
 
 /// Height of a line where a mouse points, in points.
 const LINE: f32 = 24.0;
@@ -57,7 +62,7 @@ pub(in crate::app) fn show(ui: &mut Ui, state: &State, options: ViewOptions, is_
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            buttons(ui, &verdict, first, is_narrow, asked);
+            buttons(ui, (&verdict, state.generation()), first, is_narrow, asked);
             if !is_narrow {
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| sentence(ui, &text));
             }
@@ -75,22 +80,31 @@ pub(in crate::app) fn show(ui: &mut Ui, state: &State, options: ViewOptions, is_
 
 /// From right to left. In a narrow window there is room for the place alone: what may help is in the list, beside the whole
 /// of the sentence.
-fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, is_narrow: bool, asked: &mut Vec<Action>) {
-    let others: Vec<&Finding> = verdict.findings.iter().skip(usize::from(first.is_some() && !is_narrow)).collect();
-    let words = match (first, others.len()) {
-        (Some(_), _) if is_narrow => say!("verdict-what-to-do"),
-        (Some(_), count) => say!("verdict-more", count = count),
-        (None, count) => say!("verdict-notes", count = count),
+fn buttons(
+    ui: &mut Ui,
+    (verdict, generation): (&Verdict, u64),
+    first: Option<&Finding>,
+    is_narrow: bool,
+    asked: &mut Vec<Action>,
+) {
+    let count = verdict.findings.len();
+    let words = match first {
+        Some(_) if is_narrow => say!("verdict-what-to-do"),
+        Some(_) => say!("verdict-findings", count = count),
+        None => say!("verdict-notes", count = count),
     };
-    if !others.is_empty() {
-        menu(ui, &words, &mut |ui| {
-            ui.set_max_width(320.0);
-            for (i, finding) in others.iter().enumerate() {
-                if i > 0 {
-                    ui.separator();
-                }
-                remark(ui, &tell(&finding.what));
-                ui.horizontal(|ui| act(ui, finding, asked));
+    if count > 0 {
+        let id = Id::unique("findings");
+        card(ui, &words, WIDEST, &mut |ui, opens| {
+            // As they were when it opened, for as long as they are of what is shown: a button does not move under the pointer.
+            let kept = ui.data(|data| data.get_temp::<(u64, Arc<[Finding]>)>(id));
+            let kept = kept.filter(|(of, _)| !opens && *of == generation);
+            let (_, findings) = kept.unwrap_or_else(|| (generation, verdict.findings.clone().into()));
+            ui.data_mut(|data| data.insert_temp(id, (generation, findings.clone())));
+            let before = asked.len();
+            list(ui, &findings, asked);
+            if asked.len() > before {
+                ui.close();
             }
         });
     }
@@ -108,6 +122,25 @@ fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, is_narrow: b
             if vessels.on_hover_text(say!("verdict-show-vessels-help")).clicked() {
                 asked.push(Action::Vessels(vessels::action::Action::Toggle));
             }
+        }
+    }
+}
+
+/// All that was found and what can be done about it, what is grave apart from the rest.
+fn list(ui: &mut Ui, findings: &[Finding], asked: &mut Vec<Action>) {
+    let grave = findings.iter().filter(|finding| finding.is_grave).count();
+    let parts = [(say!("verdict-list-grave"), &findings[..grave]), (say!("verdict-list-notes"), &findings[grave..])];
+    ui.spacing_mut().item_spacing.y = theme::GRID;
+    for (i, (title, part)) in parts.iter().filter(|(_, part)| !part.is_empty()).enumerate() {
+        if i > 0 {
+            ui.separator();
+        }
+        if (1..findings.len()).contains(&grave) {
+            ui.label(RichText::new(title).small().weak());
+        }
+        for finding in *part {
+            wrapped(ui, &tell(&finding.what), |text| text);
+            ui.horizontal_wrapped(|ui| act(ui, finding, asked));
         }
     }
 }

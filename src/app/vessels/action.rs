@@ -10,6 +10,9 @@ pub enum Action {
     Toggle,
     /// Draw the radius along the branch of this number.
     Select(u32),
+    /// Compare the narrowest place of the branch that is drawn with the one at this arc length in mm; `None` for what stands on
+    /// both sides of a narrowing.
+    Refer(Option<f64>),
     /// Show them, with the one that is measured least, and go to where it is not.
     ShowUnmeasured,
     /// Save the calibre at each place of each branch.

@@ -25,6 +25,8 @@ pub struct Vessels {
     selected: Option<u32>,
     /// Whether its row is to be brought into sight.
     scrolls: bool,
+    /// Arc length of the reference of its narrowest place, if that was chosen, in mm.
+    reference_mm: Option<f64>,
 }
 
 const TOGGLE: Ask = Ask::Vessels(Action::Toggle);
@@ -48,13 +50,13 @@ impl Panel for Vessels {
     fn entry(&self, now: Now<'_>) -> Option<Entry> {
         let is_open = now.shows(Beside::Vessels);
         Some(Entry {
-            group: Group::Beside,
+            group: Group::Tabs,
             label: Key("app-vessels"),
             help: Key("app-vessels-help"),
             key: Some(egui::Key::V),
             action: TOGGLE,
             is_open,
-            is_enabled: now.has_level() && now.mode == Mode::Method || is_open,
+            is_enabled: now.has_level() && now.mode != Mode::Scan || is_open,
         })
     }
 
@@ -67,14 +69,15 @@ impl Panel for Vessels {
     }
 
     fn show(&mut self, ui: &mut Ui, now: Now<'_>, asked: &mut Vec<Ask>) {
-        view::show(ui, (self.selected, std::mem::take(&mut self.scrolls)), now, asked);
+        let shown = std::mem::take(&mut self.scrolls);
+        view::show(ui, Self { scrolls: shown, ..*self }, now, asked);
     }
 
     fn act(&mut self, action: Ask, acting: &mut Acting<'_>) -> Option<Ask> {
         let Ask::Vessels(action) = action else { return Some(action) };
         match action {
             Action::Toggle => {
-                let is_open = *acting.beside == Beside::Vessels;
+                let is_open = acting.mode == Mode::Method && *acting.beside == Beside::Vessels;
                 if !is_open && acting.in_trial {
                     acting.then.push(Ask::Unmark);
                 } else if is_open {
@@ -85,13 +88,19 @@ impl Panel for Vessels {
                     *acting.beside = Beside::Vessels;
                 }
             }
-            Action::Select(branch) => self.selected = Some(branch),
+            Action::Select(branch) => (self.selected, self.reference_mm) = (Some(branch), None),
+            Action::Refer(at_mm) => {
+                self.reference_mm = at_mm;
+                if at_mm.is_none() {
+                    acting.then.push(Ask::Unmark);
+                }
+            }
             Action::ShowUnmeasured => {
                 acting.state.comparison.set_open(false);
                 *acting.beside = Beside::Vessels;
                 let found = acting.state.calibre().and_then(|calibre| calibre.found.as_ref().ok());
                 if let Some((branch, station)) = found.and_then(Certificate::least_measured) {
-                    (self.selected, self.scrolls) = (Some(branch.number), true);
+                    *self = Self { selected: Some(branch.number), scrolls: true, reference_mm: None };
                     acting.then.extend(view::go_to_station(branch, station));
                 }
             }
@@ -105,6 +114,6 @@ impl Panel for Vessels {
     }
 
     fn leave_surface(&mut self, _: &mut Acting<'_>) {
-        self.selected = None;
+        (self.selected, self.reference_mm) = (None, None);
     }
 }

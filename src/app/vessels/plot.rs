@@ -1,7 +1,7 @@
 //! The radius along a branch: as opened, smoothed and reduced.
 
-use egui::{RichText, Role, Stroke, Ui, Visuals, WidgetInfo};
-use egui_plot::{AxisHints, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, VLine};
+use egui::{Align2, RichText, Role, Stroke, Ui, Visuals, WidgetInfo};
+use egui_plot::{AxisHints, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Text, VLine};
 
 use crate::app::still_plot::{still, tick};
 use crate::language::{decimal, tell};
@@ -28,8 +28,21 @@ impl Strokes {
     }
 }
 
-/// Shows the radii of `branch`, beside what is allowed. Returns the station that was clicked.
-pub(super) fn show(ui: &mut Ui, branch: &BranchCalibre, tolerance_percent: f64) -> Option<usize> {
+/// What the pointer asks for in the plot.
+pub(super) enum Asked {
+    /// To go to the station of this number.
+    Station(usize),
+    /// To have the reference at this arc length, in mm.
+    Reference(f64),
+}
+
+/// Shows the radii of `branch`, beside what is allowed, and a line at the reference, which can be dragged.
+pub(super) fn show(
+    ui: &mut Ui,
+    branch: &BranchCalibre,
+    tolerance_percent: f64,
+    reference_mm: Option<f64>,
+) -> Option<Asked> {
     let strokes = Strokes::of(ui.visuals());
     let names = [say!("vessels-as-opened"), say!("vessels-smoothed"), say!("vessels-reduced")];
     ui.horizontal_wrapped(|ui| {
@@ -87,11 +100,24 @@ pub(super) fn show(ui: &mut Ui, branch: &BranchCalibre, tolerance_percent: f64) 
             let line = VLine::new("", change.abscissa_mm).color(strokes.reduced.color);
             plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
         }
-        plot.pointer_coordinate().filter(|_| plot.response().clicked())
+        if let Some(at_mm) = reference_mm {
+            plot.vline(VLine::new("", at_mm).color(strokes.smoothed.color).width(1.5).allow_hover(false));
+            let (side, gap) = if at_mm > branch.length_mm / 2.0 { (Align2::RIGHT_TOP, -0.01) } else { (Align2::LEFT_TOP, 0.01) };
+            let label = RichText::new(say!("vessels-reference-line")).small().color(strokes.smoothed.color);
+            let place = PlotPoint::new(at_mm + gap * branch.length_mm, high);
+            plot.text(Text::new("", place, label).anchor(side).allow_hover(false));
+        }
+        let (is_clicked, is_dragged) = (plot.response().clicked(), plot.response().dragged());
+        let at_mm = plot.pointer_coordinate()?.x.clamp(0.0, branch.length_mm);
+        match reference_mm {
+            Some(_) if is_dragged => Some(Asked::Reference(at_mm)),
+            _ if is_clicked => nearest(branch, at_mm).map(Asked::Station),
+            _ => None,
+        }
     });
     let text = say!("vessels-radius-along", name = tell(&branch.label()));
     shown.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &text));
-    nearest(branch, shown.inner?.x)
+    shown.inner
 }
 
 /// What is shown of the radii, in mm: all of them, and a tenth of the widest to spare.
@@ -124,7 +150,7 @@ fn pieces(branch: &BranchCalibre, of: &OnSurface, factor: f64) -> Vec<PlotPoints
 }
 
 /// The station nearest to a place along the branch.
-fn nearest(branch: &BranchCalibre, abscissa_mm: f64) -> Option<usize> {
+pub(super) fn nearest(branch: &BranchCalibre, abscissa_mm: f64) -> Option<usize> {
     let away = |&i: &usize| (f64::from(branch.abscissas_mm[i]) - abscissa_mm).abs();
     (0..branch.abscissas_mm.len()).min_by(|a, b| away(a).total_cmp(&away(b)))
 }

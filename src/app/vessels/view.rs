@@ -3,7 +3,7 @@
 use egui::{Button, DragValue, Grid, RichText, Role, ScrollArea, Ui};
 
 use super::words::{COLUMNS, cells, text, why_not_measured};
-use super::{Action as Asked, plot};
+use super::{Action as Asked, Vessels, plot};
 use crate::app::action::Action;
 use crate::app::assist::{describe, heading, name};
 use crate::app::control::reads_comma;
@@ -13,20 +13,21 @@ use crate::app::options::{Colours, ViewOptions};
 use crate::app::row::wrapped;
 use crate::app::state::State;
 use crate::app::theme;
-use crate::language::tell;
+use crate::language::{decimal, tell};
 use crate::pipeline::settings::Settings;
 use crate::say;
 use crate::vessel::certificate::{BranchCalibre, Certificate, Change, Verdict};
 use crate::vessel::summary::{in_order, place, summary};
+use crate::vessel::variation::Variation;
 
 /// Height of what is seen at a place that is gone to, in radii of the vessel there.
 const SEEN: f32 = 16.0;
 /// What the plot takes of the width, where it stands beside the table.
 const PLOT: f32 = 0.42;
 
-/// Shows the vessels, with the branch of that number, whose row is brought into sight where that is asked for; on a phone the
-/// plot stands below the table.
-pub(super) fn show(ui: &mut Ui, (selected, scrolls): (Option<u32>, bool), now: Now<'_>, asked: &mut Vec<Action>) {
+/// Shows the vessels, with the branch that is chosen; on a phone the plot stands below the table.
+pub(super) fn show(ui: &mut Ui, shown: Vessels, now: Now<'_>, asked: &mut Vec<Action>) {
+    let Vessels { selected, scrolls, reference_mm } = shown;
     let Now { state, options, is_narrow, .. } = now;
     ui.spacing_mut().item_spacing.y = 4.0;
     head(ui, state, options, is_narrow, asked);
@@ -49,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, (selected, scrolls): (Option<u32>, bool), now: N
     if is_narrow {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ScrollArea::horizontal().show(ui, |ui| table(ui, &rows, (branch, scrolls), state, asked));
-            ui.allocate_ui(egui::vec2(ui.available_width(), 180.0), |ui| radius(ui, branch, found, asked));
+            ui.allocate_ui(egui::vec2(ui.available_width(), 180.0), |ui| radius(ui, branch, (found, reference_mm), asked));
         });
         return;
     }
@@ -58,7 +59,7 @@ pub(super) fn show(ui: &mut Ui, (selected, scrolls): (Option<u32>, bool), now: N
         ui.allocate_ui(egui::vec2(room * (1.0 - PLOT), height), |ui| {
             ScrollArea::both().auto_shrink(false).show(ui, |ui| table(ui, &rows, (branch, scrolls), state, asked));
         });
-        ui.vertical(|ui| radius(ui, branch, found, asked));
+        ui.vertical(|ui| radius(ui, branch, (found, reference_mm), asked));
     });
 }
 
@@ -145,13 +146,58 @@ fn table(
     });
 }
 
-fn radius(ui: &mut Ui, branch: &BranchCalibre, found: &Certificate, asked: &mut Vec<Action>) {
+fn radius(
+    ui: &mut Ui,
+    branch: &BranchCalibre,
+    (found, reference_mm): (&Certificate, Option<f64>),
+    asked: &mut Vec<Action>,
+) {
     for stretch in branch.uneven().into_iter().flatten() {
         let told = say!("vessels-uneven", stretch = tell(&stretch.text()), reference = tell(&stretch.reference()));
         ui.add(egui::Label::new(RichText::new(told).small()).wrap());
     }
-    let Some(i) = plot::show(ui, branch, found.tolerance_percent) else { return };
-    asked.extend(go_to_station(branch, i));
+    let mut wanted = reference(ui, branch, reference_mm);
+    match plot::show(ui, branch, found.tolerance_percent, reference_mm) {
+        Some(plot::Asked::Station(i)) => asked.extend(go_to_station(branch, i)),
+        Some(plot::Asked::Reference(at_mm)) => wanted = Some(at_mm),
+        None => {}
+    }
+    if wanted != reference_mm {
+        asked.push(Action::Vessels(Asked::Refer(wanted)));
+        let label = |found: &Variation| say!("vessels-refers-here", diameter = decimal(found.reference_mm, 2), degree = tell(&found.degree()));
+        let found = wanted.and_then(|at_mm| Some((plot::nearest(branch, at_mm)?, branch.narrowest_beside(at_mm)?)));
+        asked.extend(found.map(|(i, found)| Action::Mark { at_mm: branch.at_mm[i], label: label(&found) }));
+    }
+}
+
+/// The reference of the narrowest place, where it is chosen by hand, and what that makes of it. Returns what is wanted.
+fn reference(ui: &mut Ui, branch: &BranchCalibre, reference_mm: Option<f64>) -> Option<f64> {
+    let mut wanted = reference_mm;
+    ui.horizontal(|ui| {
+        let mut is_chosen = reference_mm.is_some();
+        let chosen = ui.checkbox(&mut is_chosen, say!("vessels-refer"));
+        if chosen.on_hover_text(say!("vessels-refer-help")).changed() {
+            let side = branch.uneven()[0].and_then(|found| found.sides.into_iter().flatten().next());
+            wanted = is_chosen.then(|| side.map_or(branch.length_mm / 4.0, |side| side.abscissa_mm));
+        }
+        if let Some(mut at_mm) = reference_mm {
+            let field = DragValue::new(&mut at_mm).range(0.0..=branch.length_mm).max_decimals(1).suffix(" mm");
+            let field = ui.add(reads_comma(field.speed(branch.length_mm / 200.0), false));
+            describe(&field, Role::SpinButton, &say!("vessels-refer-at"), at_mm);
+            if field.on_hover_text(say!("vessels-refer-at-help")).changed() {
+                wanted = Some(at_mm);
+            }
+        }
+    });
+    if let Some(found) = reference_mm.and_then(|at_mm| branch.narrowest_beside(at_mm)) {
+        let told = say!("vessels-uneven", stretch = tell(&found.text()), reference = tell(&found.reference()));
+        let told = match found.reduced_degree_percent {
+            Some(percent) => format!("{told}. {}", say!("vessels-refer-reduced", percent = decimal(percent, 0))),
+            None => told,
+        };
+        ui.add(egui::Label::new(RichText::new(told).small()).wrap());
+    }
+    wanted
 }
 
 /// A look at station `i` of a branch, if there is such a station.

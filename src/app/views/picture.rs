@@ -205,6 +205,7 @@ impl Views {
                 axes: document.map(|document| document.import.axes).unwrap_or_default(),
                 legend: picture.style.map.filter(|_| is_measured).map(|map| legend(map, colours)),
                 array: array.filter(|_| self.has_scalars()),
+                is_alone: false,
             },
         );
     }

@@ -20,10 +20,12 @@ verdict-stopped = Es wurde abgebrochen, oder die Berechnung ist abgestürzt: zum
 # $text is what is said of the surface, a sentence: that it is a sample.
 verdict-sample = Beispiel: { $text }
 verdict-what-to-do = Abhilfe
-verdict-more = { $count ->
-    [one] { $count } weiterer
-   *[other] { $count } weitere
+verdict-findings = { $count ->
+    [one] { $count } Befund
+   *[other] { $count } Befunde
 }
+verdict-list-grave = Zu prüfen
+verdict-list-notes = Hinweise
 verdict-notes = { $count ->
     [one] { $count } Hinweis
    *[other] { $count } Hinweise

@@ -78,6 +78,14 @@ vessels-at-ends = Es ist zu kurz: Es liegt ganz an Enden oder Gabelungen.
 vessels-radius-head = Radius entlang von { $name }:
 # Darüber: ein Abschnitt, der enger oder weiter ist als zu beiden Seiten, und womit er verglichen ist.
 vessels-uneven = { $stretch }: { $reference }
+# The narrowest place beside another that the user has chosen.
+vessels-refer = Eigene Referenz
+vessels-refer-help = Vergleicht die engste Stelle dieses Astes mit der gewählten Stelle, nach dem Durchmesser des flächengleichen Kreises: die Linie im Bild ziehen
+vessels-refer-at = Referenz bei
+vessels-refer-at-help = Ziehen, oder eine Stelle entlang des Astes eingeben
+vessels-refer-reduced = Reduziert: { $percent } %
+vessels-refers-here = Referenz { $diameter } mm; engste Stelle { $degree }
+vessels-reference-line = Referenz
 vessels-radius-along = Radius entlang von { $name }
 vessels-as-opened = wie geöffnet
 vessels-smoothed = geglättet
@@ -140,7 +148,10 @@ vessels-unknown = { $count ->
 
 vessels-error-no-triangles = Die Oberfläche hat keine Dreiecke
 vessels-error-inside-out = Die Oberfläche ist umgestülpt: Ihre Dreiecke zeigen in das Gefäß hinein
-vessels-error-no-inside = Die Oberfläche hat kein Inneres: Von ihren { $triangles } Dreiecken liegt keines einem anderen gegenüber
+vessels-error-no-inside = { $triangles ->
+    [one] Die Oberfläche hat kein Inneres: Sie ist ein einziges Dreieck
+   *[other] Die Oberfläche hat kein Inneres: Von ihren { $triangles } Dreiecken liegt keines einem anderen gegenüber
+}
 vessels-error-sheet = Das Innere der Oberfläche ist eine dünne Schicht und kein Gefäß: Es braucht mehr als { $balls } Kugeln, um sie zu füllen. Ist es die Wand eines Gefäßes, mit einer inneren und einer äußeren Seite?
 vessels-error-unit = Das weiteste Gefäß misst { $diameter } mm: Die Oberfläche ist wahrscheinlich nicht in der Einheit, in der sie geöffnet wurde
 vessels-error-no-centreline = Es gibt keine Zentrallinie, zu der er senkrecht sein könnte

@@ -16,6 +16,8 @@ lesson-copy-link = Copy link
 lesson-copy-link-help = Opens this step for whoever follows it
 # $what is what stands behind "look:" in a step of a lesson, of the lessons below or of a teacher's.
 lesson-look = Look at { $what }
+# Below it, while numbers are still to come.
+lesson-measuring = Being measured: the numbers follow.
 lesson-show-answer = Show the answer
 lesson-show-answer-help = Say your own first
 # Told as a lesson is closed.

@@ -65,6 +65,14 @@ vessels-at-ends = It is too short: all of it lies at ends or forks.
 vessels-radius-head = Radius along { $name }:
 # Above it: a stretch that is narrower or wider than on either side, and what it is compared with.
 vessels-uneven = { $stretch }: { $reference }
+# The narrowest place beside another that the user has chosen.
+vessels-refer = Own reference
+vessels-refer-help = Compares the narrowest place of this branch with the place that you choose, by the diameter of the circle of the same area: drag the line in the plot
+vessels-refer-at = Reference at
+vessels-refer-at-help = Drag, or type a place along the branch
+vessels-refer-reduced = Reduced: { $percent } %
+vessels-refers-here = reference { $diameter } mm; narrowest { $degree }
+vessels-reference-line = reference
 vessels-radius-along = Radius along { $name }
 # The three surfaces, in a legend.
 vessels-as-opened = as opened

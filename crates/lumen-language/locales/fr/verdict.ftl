@@ -20,10 +20,12 @@ verdict-stopped = La mesure a été annulée, ou le calcul s'est arrêté : mod
 # $text is what is said of the surface, a sentence: that it is a sample.
 verdict-sample = Exemple : { $text }
 verdict-what-to-do = Que faire
-verdict-more = { $count ->
-    [one] { $count } autre
-   *[other] { $count } autres
+verdict-findings = { $count ->
+    [one] { $count } constat
+   *[other] { $count } constats
 }
+verdict-list-grave = À vérifier
+verdict-list-notes = Remarques
 verdict-notes = { $count ->
     [one] { $count } remarque
    *[other] { $count } remarques

@@ -78,6 +78,14 @@ vessels-at-ends = Il est trop court : tout entier à des extrémités ou à des
 vessels-radius-head = Rayon le long de la { $name } :
 # Au-dessus : une portion plus étroite ou plus large que de part et d'autre, et ce à quoi elle est comparée.
 vessels-uneven = { $stretch } : { $reference }
+# The narrowest place beside another that the user has chosen.
+vessels-refer = Référence choisie
+vessels-refer-help = Compare l'endroit le plus étroit de cette branche à l'endroit choisi, d'après le diamètre du cercle de même aire : faire glisser la ligne dans le tracé
+vessels-refer-at = Référence à
+vessels-refer-at-help = Faire glisser, ou saisir un endroit le long de la branche
+vessels-refer-reduced = Réduit : { $percent } %
+vessels-refers-here = référence { $diameter } mm ; au plus étroit { $degree }
+vessels-reference-line = référence
 vessels-radius-along = Rayon le long de la { $name }
 vessels-as-opened = à l'ouverture
 vessels-smoothed = lissé
@@ -143,7 +151,10 @@ vessels-unknown = { $count ->
 
 vessels-error-no-triangles = la surface n'a pas de triangles
 vessels-error-inside-out = la surface est retournée : ses triangles sont tournés vers l'intérieur du vaisseau
-vessels-error-no-inside = la surface n'a pas d'intérieur : de ses { $triangles } triangles, aucun ne fait face à un autre
+vessels-error-no-inside = { $triangles ->
+    [one] la surface n'a pas d'intérieur : c'est un seul triangle
+   *[other] la surface n'a pas d'intérieur : de ses { $triangles } triangles, aucun ne fait face à un autre
+}
 vessels-error-sheet = l'intérieur de la surface est une couche mince et non un vaisseau : il faut plus de { $balls } boules pour le remplir. Est-ce la paroi d'un vaisseau, avec une face interne et une face externe ?
 vessels-error-unit = le vaisseau le plus large fait { $diameter } mm : la surface n'est sans doute pas dans l'unité dans laquelle elle a été ouverte
 vessels-error-no-centreline = il n'y a pas de ligne centrale à laquelle elle serait perpendiculaire

@@ -74,6 +74,12 @@ impl Verdict {
                 .map(|warning| Finding { is_grave: *warning == Warning::NoInside, ..Finding::note(warning.clone()) }),
         );
         findings.sort_by_key(|finding| !finding.is_grave);
+        let mut said: Vec<FindingKind> = Vec::new();
+        findings.retain(|finding| {
+            let is_new = !said.contains(&finding.what);
+            said.push(finding.what.clone());
+            is_new
+        });
         let grave = findings.iter().filter(|finding| finding.is_grave).count();
         let certificate = known.calibre.and_then(|found| found.as_ref().ok());
         let coverage = certificate.map(|found| found.coverage);

@@ -37,7 +37,7 @@ pub(super) use unit::checked;
 
 use super::BranchName;
 pub use super::on_surface::{Change, OnSurface, Spread, SpreadText, StationStatus};
-use super::variation::{Kind, UnevenText, Variation, greatest};
+use super::variation::{Along, Kind, UnevenText, Variation, greatest, narrowest_beside};
 use lumen_message::messages;
 
 /// The change in percent that a vessel is allowed, unless it is said otherwise.
@@ -159,6 +159,19 @@ impl BranchCalibre {
     /// left, and a widening, whose degree has no upper end, would hide it.
     pub fn uneven(&self) -> [Option<&Variation>; 2] {
         [Kind::Narrower, Kind::Wider].map(|kind| greatest(&self.variations, kind))
+    }
+
+    /// The narrowest place beside the diameter at another of the user's choice, at this arc length in mm: where the sides of
+    /// a narrowing are no reference, as at a fork or in a vessel that is narrow as a whole. `None` where nothing is measured.
+    pub fn narrowest_beside(&self, reference_mm: f64) -> Option<Variation> {
+        let along = Along {
+            abscissas_mm: &self.abscissas_mm,
+            at_mm: &self.at_mm,
+            standings: &self.standings,
+            opened: &self.opened,
+            reduced: &self.reduced,
+        };
+        narrowest_beside(along, reference_mm)
     }
 
     /// These in words; `None` where there is neither.

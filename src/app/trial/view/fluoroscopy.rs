@@ -10,6 +10,7 @@ use crate::app::graphics_error::surface_error;
 use crate::app::halo;
 use crate::app::overlay::{self, NOT_CLINICAL};
 use crate::app::places::pixels;
+use crate::app::theme;
 use crate::app::trial::carm::{self, CArm};
 use crate::app::trial::marks::WRITTEN_OVER;
 use crate::app::trial::plate::plate;
@@ -86,7 +87,9 @@ impl Fluoroscopy {
         {
             overlay::ring_at(ui, rect, at, &say!("trial-missed-fork-ring"), ui.visuals().error_fg_color);
         }
-        plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), false);
+        if theme::is_narrow(ui.ctx()) {
+            plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), false);
+        }
     }
 
     /// Takes a fluoroscopy where a pulse is due and would show something else, and gives the texture that the last one

@@ -37,7 +37,9 @@ impl TrialView {
         }
         let inner = rect.shrink(8.0);
         plate(ui, inner.left_top(), Align2::LEFT_TOP, &say!("trial-tip-title"), true);
-        plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), false);
+        if theme::is_narrow(ui.ctx()) {
+            plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), false);
+        }
         if rect.height() > 200.0 {
             plate(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, &trial.name, false);
         }

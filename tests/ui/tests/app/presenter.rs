@@ -3,7 +3,7 @@
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen_ui_tests::{DESKTOP, PHONE, app, says, settle, settle_wholly};
 
@@ -38,7 +38,15 @@ fn letters_grow_the_panel_goes_but_for_what_is_dragged_and_escape_brings_all_bac
             assert!(window.contains_rect(rect), "{slider} at {rect} in {window}");
         }
         assert!((harness.ctx.zoom_factor() / zoom - 1.4).abs() < 1e-3);
-        assert!(harness.query_by_role_and_label(Role::Image, "Shaded view").is_some());
+        let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
+        let curve = harness.query_all_by_role(Role::Image).find(|node| {
+            let label = node.accesskit_node().label();
+            label.is_some_and(|label| label.starts_with("Half gain"))
+        });
+        assert_eq!(curve.is_some(), size == DESKTOP, "what the filter lets through, where there is room");
+        if let Some(curve) = curve.map(|node| node.rect()) {
+            assert!(curve.height() > 200.0 && curve.width() > 240.0 && curve.left() > view.right(), "{curve}, {view}");
+        }
         harness.key_press(Key::Escape);
         harness.run_steps(4);
         assert!(has_panel(&harness) && (harness.ctx.zoom_factor() - zoom).abs() < 1e-6);

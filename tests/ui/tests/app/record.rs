@@ -5,7 +5,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, Kept, Memory, PHONE, app_in_full, offered, open, page, says, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, Kept, Memory, PHONE, app_at, app_in_full, offered, open, page, says, settle_wholly, tube};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 
@@ -176,4 +176,55 @@ fn a_turntable_turns_once_and_can_be_cancelled() {
     assert!(frames[0] != frames[12] && frames[12] != frames[24] && frames[24] != frames[36]);
     assert!(bytes.len() < 8_000_000, "{} bytes", bytes.len());
     println!("the turntable takes {} bytes", bytes.len());
+}
+
+#[test]
+fn the_reduction_is_played_there_and_back_and_saved_as_a_moving_picture() {
+    let (mut harness, memory) = app_at(DESKTOP, 0.05);
+    settle_wholly(&mut harness);
+    let state = |harness: &Harness<'_, LumenApp>| {
+        let document = harness.state().state().document.as_ref().unwrap();
+        (document.shown.as_ref().unwrap().level.triangles.len(), document.levels.as_ref().unwrap().1.triangles.len())
+    };
+    let before = (harness.state().state().settings.clone(), state(&harness).0);
+    click(&mut harness, "Learn");
+    harness.get_by_role_and_label(Role::CheckBox, "Play the reduction").click();
+    harness.run_steps(2);
+    // It begins with all triangles: 12 s there and back, a frame every twentieth.
+    let mut seen = Vec::new();
+    for _frame in 0..244 {
+        harness.step();
+        seen.push(state(&harness).0);
+    }
+    let (_, all) = state(&harness);
+    let fewest = *seen.iter().min().unwrap();
+    assert!(seen.iter().max().unwrap() * 20 > all * 19, "{} of {all}", seen.iter().max().unwrap());
+    let turn = seen.iter().position(|&count| count == fewest).unwrap();
+    assert!(seen[..turn].is_sorted_by(|a, b| a >= b) && seen[turn..230].is_sorted(), "there, and back");
+    assert!((100..=145).contains(&turn), "in the middle: {turn}");
+    // 99.9 %, or as few as the method leaves.
+    let levels = harness.state().state().document.as_ref().unwrap().levels.as_ref().unwrap().1.clone();
+    assert!(fewest <= (all / 999).max(levels.triangles_after(levels.errors.len() as u32)), "{fewest} of {all}");
+    click(&mut harness, "Pause");
+    let paused = state(&harness).0;
+    harness.run_steps(10);
+    assert_eq!(state(&harness).0, paused);
+    click(&mut harness, "Save (APNG)...");
+    let (name, bytes) = offered(&mut harness, &memory);
+    assert!(name.ends_with("-reduction.png"), "{name}");
+    let mut reader = info(&bytes);
+    let frames = reader.info().animation_control().unwrap().num_frames;
+    let mut pictures = Vec::new();
+    for _frame in 0..frames {
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        pictures.push(pixels);
+    }
+    let differing = |a: usize, b: usize| pictures[a].iter().zip(&pictures[b]).filter(|(a, b)| a != b).count();
+    let half = pictures.len() / 2;
+    assert!(pictures.len() >= 24 && differing(0, half) > 1000 && differing(half - 3, half) > 100);
+    assert!(differing(half - 3, half + 3) == 0, "back by the way it went");
+    click(&mut harness, "Close");
+    settle_wholly(&mut harness);
+    assert_eq!((harness.state().state().settings.clone(), state(&harness).0), before);
 }

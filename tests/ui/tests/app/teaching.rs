@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Settings, Target};
-use lumen_ui_tests::{DESKTOP, Kept, app, app_in_full, page, says, settle};
+use lumen_ui_tests::{DESKTOP, Kept, app, app_in_full, page, says, settle, settle_wholly};
 
 use crate::controls::press_at;
 use crate::recovery::{notice, tell};
@@ -99,6 +99,29 @@ fn every_step_of_every_lesson_sets_the_app_and_can_be_gone_back_to() {
         harness.run_steps(2);
     }
     assert!(harness.state().lessons().given().is_none(), "Esc leaves the lesson");
+}
+
+#[test]
+fn the_card_stands_beside_what_it_tells_one_to_look_at_and_says_that_it_is_being_measured() {
+    const MEASURED: &str = "Being measured: the numbers follow.";
+    for size in [DESKTOP, [900.0, 800.0], [390.0, 844.0]] {
+        let (mut harness, _) = app(size);
+        settle_wholly(&mut harness);
+        if harness.query_by_role_and_label(Role::Button, "Learn").is_none() {
+            click(&mut harness, "Menu");
+        }
+        menu(&mut harness, "Pass band");
+        let look = harness.get_by_label_contains("Look at").rect();
+        for name in ["Shaded view", "Wireframe view"] {
+            let view = harness.get_by_role_and_label(Role::Image, name).rect();
+            assert!(!view.intersects(look), "{look} over {view} at {size:?}");
+            assert_eq!(look.left() >= view.right(), size == DESKTOP, "{look}, {view} at {size:?}");
+        }
+        click(&mut harness, "Next");
+        assert!(says(&harness, MEASURED), "at {size:?}");
+        settle_wholly(&mut harness);
+        assert!(!says(&harness, MEASURED), "at {size:?}");
+    }
 }
 
 #[test]

@@ -12,6 +12,7 @@ use lumen::pipeline::settings::{Keep, Settings, Smoothing, Target};
 use lumen::sharing::{SharedSettings, write_settings};
 use lumen_ui_tests::{DESKTOP, app, app_in_full, open, phone, says, settle, settle_wholly, tube, unfold};
 
+use crate::mending::faulty;
 use crate::targets::fits_a_finger;
 
 fn click(harness: &mut Harness<'_, LumenApp>, label: &str) {
@@ -79,6 +80,44 @@ fn on_a_phone_how_much_is_measured_stands_first() {
     fits_a_finger(&harness, "what is measured little");
     click(&mut harness, "Show unmeasured");
     assert!(harness.query_by_role_and_label(Role::SpinButton, "Allowed change").is_some());
+}
+
+#[test]
+fn the_list_of_what_was_found_stays_as_it_opened_while_more_is_found() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "faulty.obj".to_owned(), bytes: faulty() });
+    let list = |harness: &Harness<'_, LumenApp>| {
+        let all = harness.query_all_by_role(Role::Button).map(|node| (node.accesskit_node().label(), node.rect()));
+        all.filter(|(label, _)| label.as_ref().is_some_and(|label| label.ends_with(" note") || label.ends_with(" notes")))
+            .map(|(label, rect)| (label.unwrap(), rect))
+            .next()
+    };
+    let words = |harness: &Harness<'_, LumenApp>, above: f32| {
+        let labels = harness.query_all_by_role(Role::Label).map(|node| (node.rect(), node.accesskit_node().label()));
+        // In the card below the button, over the views.
+        let inside = labels.filter(|(rect, _)| rect.left() > 700.0 && rect.top() > above && rect.bottom() < 760.0);
+        inside.filter_map(|(rect, label)| Some((label?, rect.min))).collect::<Vec<_>>()
+    };
+    while !(harness.state().state().document.as_ref().is_some_and(|d| d.title().contains("faulty")))
+        || list(&harness).is_none()
+    {
+        harness.step();
+    }
+    let (first, button) = list(&harness).unwrap();
+    assert!(harness.state().state().calibre().is_none(), "more is to come");
+    click(&mut harness, &first);
+    let shown = words(&harness, button.bottom());
+    assert!(!shown.is_empty());
+    settle_wholly(&mut harness);
+    let (then, beside) = list(&harness).unwrap();
+    assert_ne!(first, then, "more was found");
+    assert_eq!(button, beside, "and the button did not move");
+    assert_eq!(words(&harness, button.bottom()), shown, "nor what it opened");
+    click(&mut harness, &then);
+    assert!(words(&harness, button.bottom()).is_empty(), "closed");
+    click(&mut harness, &then);
+    assert!(words(&harness, button.bottom()).len() > shown.len());
 }
 
 #[test]

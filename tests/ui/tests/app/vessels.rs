@@ -8,7 +8,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::Calibre;
 use lumen::pipeline::settings::Smoothing;
 use lumen::vessel::certificate::Verdict;
-use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, offered, says, settle, tube};
+use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, drag, offered, open, says, settle, tube};
 
 /// What the level makes of the vessels, once that is known: it comes after the other numbers.
 fn calibre(harness: &mut Harness<'_, LumenApp>) -> Calibre {
@@ -207,4 +207,49 @@ fn what_smoothing_draws_shut_is_told_as_changed_by_smoothing() {
     harness.key_press(Key::V);
     harness.run_steps(4);
     assert!(says(&harness, "Smoothing itself changes"));
+}
+
+#[test]
+fn the_reference_of_a_narrowing_is_chosen_and_dragged() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    // 60 mm long and 12 mm wide, to 9 mm in its middle.
+    let wide = |z: f64| 6.0 - 1.5 * (-(z - 30.0) * (z - 30.0) / 50.0).exp();
+    let bytes = String::from_utf8(tube(6.0, 60.0, 0.8)).unwrap();
+    let narrowed = bytes.lines().map(|line| {
+        let numbers: Vec<f64> = line.split(' ').skip(1).filter_map(|word| word.parse().ok()).collect();
+        match (line.strip_prefix("v "), &numbers[..]) {
+            (Some(_), &[x, y, z]) => format!("v {} {} {z}\n", x * wide(z) / 6.0, y * wide(z) / 6.0),
+            _ => format!("{line}\n"),
+        }
+    });
+    open(&mut harness, &memory, "narrowed.obj", narrowed.collect::<String>().into_bytes());
+    harness.key_press(Key::V);
+    harness.run_steps(4);
+    assert!(!says(&harness, "by the diameter at"));
+    press(&mut harness, Role::CheckBox, "Own reference");
+    let at = |harness: &Harness<'_, LumenApp>| {
+        let field = harness.get_by_role_and_label(Role::SpinButton, "Reference at");
+        field.accesskit_node().numeric_value().unwrap()
+    };
+    let told = |harness: &Harness<'_, LumenApp>, at: f64| says(harness, &format!("by the diameter at {at:.1} mm"));
+    let first = at(&harness);
+    assert!(says(&harness, "% narrower over") && says(&harness, "Reduced: "));
+    let plot = harness.get_by_role_and_label(Role::Image, "Radius along branch 1").rect();
+    let before = *harness.state().camera();
+    drag(&mut harness, plot.center() + egui::vec2(0.1 * plot.width(), 0.0), egui::vec2(0.2 * plot.width(), 0.0));
+    let moved = at(&harness);
+    assert!((moved - first).abs() > 5.0, "from {first} to {moved} mm");
+    let found = harness.state().state().calibre().unwrap().found.as_ref().unwrap().branches[0].narrowest_beside(moved);
+    let found = found.unwrap();
+    assert!((20.0..=30.0).contains(&found.degree_percent), "9 of 12 mm: {found:?}");
+    assert!(told(&harness, found.sides[0].unwrap().abscissa_mm), "{found:?}");
+    assert_eq!(*harness.state().camera(), before, "it is marked, and not flown to");
+    press(&mut harness, Role::CheckBox, "Own reference");
+    assert!(harness.query_by_role_and_label(Role::SpinButton, "Reference at").is_none());
+}
+
+fn press(harness: &mut Harness<'_, LumenApp>, role: Role, label: &str) {
+    harness.get_by_role_and_label(role, label).click();
+    harness.run_steps(3);
 }

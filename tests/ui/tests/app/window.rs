@@ -1,9 +1,10 @@
 //! The window: its sheets and bar, how its views turn, and what becomes of it when it is narrow.
 
 use egui::Key;
-use egui::accesskit::Role;
-use egui_kittest::kittest::Queryable;
-use lumen_ui_tests::{PHONE, app, drag, settle};
+use egui::accesskit::{Role, Toggled};
+use egui_kittest::kittest::{NodeT, Queryable};
+use lumen_ui_tests::told::{App, press};
+use lumen_ui_tests::{DESKTOP, PHONE, app, drag, settle, settle_wholly};
 
 use crate::controls::{open, safe_percent};
 
@@ -52,6 +53,47 @@ fn the_views_turn_under_a_drag_and_show_the_surface_as_opened_while_b_is_held() 
     assert_ne!(harness.render().unwrap().as_raw(), focused.as_raw());
 }
 
+/// The tabs of the bar.
+const TABS: [&str; 5] = ["Prepare", "Compare", "Vessels", "Measure", "Trial"];
+
+#[test]
+fn one_tab_is_open_at_a_time_and_the_first_leads_back() {
+    let (mut harness, _) = app(DESKTOP);
+    settle_wholly(&mut harness);
+    let open = |harness: &App| {
+        let is_open = |tab: &&str| {
+            let node = harness.get_by_role_and_label(Role::Button, tab);
+            node.accesskit_node().toggled() == Some(Toggled::True)
+        };
+        TABS.into_iter().filter(is_open).collect::<Vec<_>>()
+    };
+    assert_eq!(open(&harness), ["Prepare"]);
+    for tab in ["Compare", "Vessels", "Measure", "Trial", "Vessels", "Compare", "Trial", "Measure", "Prepare"] {
+        for _again in 0..2 {
+            press(&mut harness, tab);
+            harness.run_steps(3);
+            assert_eq!(open(&harness), [tab]);
+        }
+        let state = harness.state();
+        assert_eq!(state.trial().is_open(), tab == "Trial");
+        assert_eq!(state.state().comparison.is_open(), tab == "Compare");
+        assert_eq!(
+            harness.query_by_role_and_label(Role::SpinButton, "Allowed change").is_some(),
+            tab == "Vessels",
+            "{tab}"
+        );
+        assert_eq!(harness.query_by_role_and_label(Role::Button, "Distance").is_some(), tab == "Measure", "{tab}");
+    }
+    // By its key from another.
+    press(&mut harness, "Compare");
+    harness.key_press(Key::V);
+    harness.run_steps(3);
+    assert_eq!(open(&harness), ["Vessels"]);
+    harness.key_press(Key::V);
+    harness.run_steps(3);
+    assert_eq!(open(&harness), ["Prepare"]);
+}
+
 #[test]
 fn everything_is_there_on_a_phone() {
     let (mut harness, _) = app(PHONE);
@@ -75,17 +117,24 @@ fn whatever_the_width_every_button_of_the_bar_is_in_the_window_or_in_the_menu() 
     for width in [360.0, 719.0, 721.0, 768.0, 900.0, 1024.0, 1109.0, 1111.0, 1280.0] {
         let (mut harness, _) = app([width, 800.0]);
         settle(&mut harness);
-        if let Some(menu) = harness.query_by_role_and_label(Role::Button, "Menu") {
-            menu.click();
-            harness.run_steps(3);
+        let bar = ["Open...", "Sample", "Save", "View", "Learn", "Help", "About"];
+        let mut missed: Vec<&str> = bar.into_iter().chain(TABS).collect();
+        for menu in ["", "Menu", "Prepare"] {
+            if let Some(menu) = harness.query_all_by_role_and_label(Role::Button, menu).next() {
+                menu.click();
+                harness.run_steps(3);
+            }
+            missed.retain(|label| {
+                let is_there =
+                    |rect: egui::Rect| rect.left() >= 0.0 && rect.right() <= width && rect.bottom() <= 800.0;
+                !harness.query_all_by_role_and_label(Role::Button, label).any(|node| is_there(node.rect()))
+            });
+            if !menu.is_empty() {
+                harness.key_press(Key::Escape);
+                harness.run_steps(3);
+            }
         }
-        for label in
-            ["Open...", "Sample", "Save", "Compare", "Trial", "Vessels", "Measure", "View", "Learn", "Help", "About"]
-        {
-            let found: Vec<_> = harness.query_all_by_label(label).map(|node| node.rect()).collect();
-            let is_there = |rect: &egui::Rect| rect.left() >= 0.0 && rect.right() <= width && rect.bottom() <= 800.0;
-            assert!(found.iter().any(is_there), "{label} at {width}: {found:?}");
-        }
+        assert!(missed.is_empty(), "{missed:?} at {width}");
         let top = harness.query_all_by_role(Role::Button).map(|node| node.rect()).filter(|rect| rect.top() < 40.0);
         for rect in top {
             assert!(rect.right() <= width, "{rect:?} at {width}");
