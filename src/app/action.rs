@@ -2,6 +2,7 @@
 //! place. Of the panels it knows their actions alone, each of which stands in a file that knows no panel.
 
 use super::options::ViewOptions;
+use super::row::Part;
 use super::{collapses, compare, lesson, measure, playback, record, scan, trial, vessels};
 use crate::io::{Axes, Format, Unit};
 use crate::language::Language;
@@ -97,6 +98,8 @@ pub enum Action {
     Collapses(collapses::action::Action),
     /// Something of the reduction that is played.
     Playback(playback::action::Action),
+    /// Unfold a part of the panel, and scroll to it.
+    Unfold(Part),
     /// Something of the lessons.
     Lesson(lesson::action::Action),
     /// Save the settings as a file.

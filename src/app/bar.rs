@@ -246,16 +246,10 @@ fn tab(ui: &mut Ui, label: &str, is_open: bool, is_enabled: bool) -> Response {
 
 /// A tab that opens a menu.
 fn tab_menu(ui: &mut Ui, label: &str, content: &mut dyn FnMut(&mut Ui)) {
-    let response = ui
-        .scope(|ui| {
-            let words = ui.painter().layout_no_wrap(label.to_owned(), TextStyle::Button.resolve(ui.style()), Color32::WHITE);
-            let size = vec2(words.size().x + 2.0 * ui.spacing().button_padding.x + TRIANGLE, ui.spacing().interact_size.y);
-            let button = Button::new(label).frame_when_inactive(false).min_size(size);
-            ui.add(button)
-        })
-        .inner;
+    // Room for the triangle.
+    let response = ui.add(Button::new(format!("{label}     ")).frame_when_inactive(false));
     name(&response, Role::Button, label);
-    let middle = pos2(response.rect.right() - TRIANGLE / 2.0 - 4.0, response.rect.center().y + 1.0);
+    let middle = response.rect.right_center() - vec2(ui.spacing().button_padding.x + TRIANGLE / 3.0, -1.0);
     icon::down(ui.painter(), middle, ui.style().interact(&response).fg_stroke.color);
     egui::Popup::menu(&response).show(content);
 }
@@ -273,7 +267,8 @@ fn of_views(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, ask: &m
     });
     let is_method = shown.mode == Mode::Method;
     let (before, help) = (say!("app-before"), say!("app-before-help"));
-    let is_held = icon::hold(ui, Icon::Before, is_method, views.show_before, &before, &help).is_pointer_button_down_on();
+    let is_held =
+        icon::hold(ui, Icon::Before, is_method, views.show_before, &before, &help).is_pointer_button_down_on();
     ask(is_held != views.before_is_held, Action::HoldBefore(is_held));
     let is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
     let (split, help) = (say!("app-split"), say!("app-split-help"));

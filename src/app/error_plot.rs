@@ -3,12 +3,12 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, CollapsingHeader, Id, RichText, Role, Stroke, Ui, WidgetInfo};
+use egui::{Align2, Id, RichText, Role, Stroke, Ui, WidgetInfo};
 use egui_plot::{
     AxisHints, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine,
 };
 
-use super::row::remark;
+use super::row::{Part, remark};
 use super::state::State;
 use super::still_plot::{still, tick};
 use crate::language::decimal;
@@ -35,13 +35,12 @@ struct Kept {
 
 /// Shows the section, folded at first; a click sets `target`.
 pub(super) fn section(ui: &mut Ui, state: &State, target: &mut Target) {
-    let head =
-        CollapsingHeader::new(say!("panel-error")).id_salt("Error against triangles").show_unindented(ui, |ui| {
-            if let Some(wanted) = plot(ui, state) {
-                *target = wanted;
-            }
-        });
-    head.header_response.on_hover_text(say!("panel-error-help"));
+    let head = Part::Error.show(ui, say!("panel-error"), |ui| {
+        if let Some(wanted) = plot(ui, state) {
+            *target = wanted;
+        }
+    });
+    head.on_hover_text(say!("panel-error-help"));
 }
 
 /// What a method's error is.

@@ -52,16 +52,17 @@ pub(super) fn hold(ui: &mut Ui, icon: Icon, enabled: bool, is_on: bool, label: &
 }
 
 fn held(ui: &mut Ui, icon: Icon, enabled: bool, is_on: bool, sense: Sense, label: &str, help: &str) -> Response {
+    let is_filled = is_on && enabled && ui.is_enabled();
     let under = ui.painter().add(Shape::Noop);
     let response = ui
         .scope(|ui| {
-            if is_on {
+            if is_filled {
                 ui.visuals_mut().widgets.inactive.fg_stroke.color = ui.visuals().selection.stroke.color;
             }
             sensed(ui, icon, enabled, sense, label, help)
         })
         .inner;
-    if is_on && !(response.hovered() || response.has_focus()) {
+    if is_filled && !(response.hovered() || response.has_focus()) {
         ui.painter().set(under, Shape::rect_filled(response.rect, 4.0, ui.visuals().selection.bg_fill));
     }
     response.widget_info(|| egui::WidgetInfo::selected(Role::Button, enabled, is_on, label));

@@ -1,7 +1,7 @@
 //! Buttons that open menus, one function for all. Egui's are functions of the closure that fills the menu, so that each menu
 //! of ours was the whole of egui's once more: 45 kB in the browser's program.
 
-use egui::{Align, Button, Frame, Layout, Margin, Popup, PopupCloseBehavior, Response, ScrollArea, Ui, vec2};
+use egui::{Align, Button, Frame, Id, Layout, Margin, Popup, PopupCloseBehavior, Response, ScrollArea, Ui, vec2};
 
 use super::icon::{self, Icon};
 use super::theme;
@@ -24,18 +24,18 @@ pub(super) fn icon_menu(ui: &mut Ui, icon: Icon, label: &str, help: &str, conten
 }
 
 /// A button that opens a card, which stays open until something else is pressed or `content`, which fills it, closes it.
-/// `content` is told whether the card opens in this frame.
-pub(super) fn card(ui: &mut Ui, title: &str, width: f32, content: &mut dyn FnMut(&mut Ui, bool)) -> Response {
+/// `content` is told whether the card opens in this frame. `id` keeps it open whatever stands beside its button.
+pub(super) fn card(ui: &mut Ui, id: Id, title: &str, width: f32, content: &mut dyn FnMut(&mut Ui, bool)) {
     // As wide for 2 as for 12: what stands beside it does not move as they are found.
     let button = ui.add(Button::new(title).min_size(vec2(LEAST, 0.0)));
-    let was_open = Popup::is_id_open(ui.ctx(), Popup::default_response_id(&button));
+    let was_open = Popup::is_id_open(ui.ctx(), id);
     let card = Popup::from_toggle_button_response(&button)
+        .id(id)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .layout(Layout::top_down(Align::Min))
         .frame(Frame::popup(ui.style()).inner_margin(Margin::same(12)))
         .width(width);
     card.show(|ui| content(ui, !was_open));
-    button
 }
 
 /// The same for a menu that may be higher than the window where its rows are for a finger.
@@ -48,5 +48,6 @@ fn scrolled(ui: &mut Ui, content: &mut dyn FnMut(&mut Ui)) {
         return content(ui);
     }
     let height = ui.ctx().content_rect().height() - MARGIN;
-    ScrollArea::vertical().max_height(height).show(ui, content);
+    // As high as it is, where that is in the window: a menu begins lower than its own height.
+    ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, content);
 }

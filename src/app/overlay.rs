@@ -56,6 +56,9 @@ pub(super) struct Legend {
 
 const MARGIN: f32 = 12.0;
 
+/// Below this height what a view says does not fit one below the other, in points.
+const LOW: f32 = 120.0;
+
 /// Says that it is not for clinical decisions. A window says so once: in the bar below, or, where that has no room for it, in
 /// the views.
 pub(super) const NOT_CLINICAL: Key = Key("about-not-clinical");
@@ -71,10 +74,18 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
         let galley = painter.layout(name.to_owned(), small.clone(), weak, inner.width() * 0.6);
         halo::galley(&painter, inner.left_top() + vec2(0.0, 20.0), galley, weak);
         scale_bar(&painter, inner, rect.height(), writing.camera, text);
-        orientation(&painter, inner, writing.camera, writing.axes, text);
+        // Legends stand at the right, and in a low view there is room for one of the two.
+        if inner.height() >= LOW {
+            orientation(&painter, inner, writing.camera, writing.axes, text);
+        }
     }
     if writing.is_alone || theme::is_narrow(ui.ctx()) {
-        halo::text(&painter, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), small, weak);
+        let (place, align) = if inner.height() >= LOW {
+            (inner.right_bottom(), Align2::RIGHT_BOTTOM)
+        } else {
+            (inner.left_bottom() - vec2(0.0, 24.0), Align2::LEFT_BOTTOM)
+        };
+        halo::text(&painter, place, align, &NOT_CLINICAL.say(), small, weak);
     }
     if let Some(colours) = &writing.legend {
         legend(&painter, inner, colours, text);
@@ -118,7 +129,15 @@ pub(super) fn ring_at(ui: &Ui, rect: Rect, middle: Pos2, label: &str, colour: Co
     };
     // On a plate: below it the surface may have any colour.
     let text = painter.layout_no_wrap(label.to_owned(), FontId::proportional(12.0), colour);
-    let place = align.anchor_size(middle + vec2(beside, 0.0), text.size());
+    let mut place = align.anchor_size(middle + vec2(beside, 0.0), text.size());
+    let inside = rect.shrink2(vec2(8.0, 5.0));
+    if !inside.contains_rect(place) {
+        // Above or below the ring, where the view has room for it.
+        let down = if middle.y < rect.center().y { 1.0 } else { -1.0 };
+        let half = text.size().x.min(inside.width()) / 2.0;
+        let x = middle.x.clamp(inside.left() + half, inside.right() - half);
+        place = Align2::CENTER_CENTER.anchor_size(pos2(x, middle.y + down * (RADIUS + 14.0)), text.size());
+    }
     painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, ui.visuals().window_fill.gamma_multiply(0.9));
     halo::galley(&painter, place.min, text, colour);
 }

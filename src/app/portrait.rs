@@ -77,8 +77,15 @@ impl Marks {
         let Some(Alone { title, legend, array }) = &self.alone else {
             return overlay::scale_and_axes(ui, rect, camera, axes);
         };
-        let writing =
-            Writing { title, name: Some(""), camera, axes, legend: legend.clone(), array: array.as_ref(), is_alone: true };
+        let writing = Writing {
+            title,
+            name: Some(""),
+            camera,
+            axes,
+            legend: legend.clone(),
+            array: array.as_ref(),
+            is_alone: true,
+        };
         overlay::show(ui, rect, &writing);
     }
 }

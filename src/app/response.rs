@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, CollapsingHeader, Id, RichText, Role, Stroke, Ui, WidgetInfo};
+use egui::{Align2, Id, RichText, Role, Stroke, Ui, WidgetInfo};
 use egui_plot::{
     AxisHints, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine,
 };
 
 use super::assist::heading;
 use super::control::Setting;
-use super::row::{remark, wrapped};
+use super::row::{Part, remark, wrapped};
 use super::still_plot::still;
 use crate::language::{decimal, grouped};
 use crate::pipeline::filter::Filter;
@@ -98,7 +98,7 @@ pub(super) fn show(ui: &mut Ui, settings: &Smoothing, scale: Scale, averaged: &m
     let response = SmoothingResponse::new(&filter, settings.pass_band, scale.edge_length.unwrap_or(0.0));
     let text = sentence(&response, settings.adapt);
     remark(ui, &text);
-    let head = CollapsingHeader::new(say!("panel-response")).id_salt("Response").show_unindented(ui, |ui| {
+    let head = Part::Response.show(ui, say!("panel-response"), |ui| {
         let mut tried = Tried::of(ui, &response);
         let others = if tried.windows { others(ui, settings) } else { Vec::new() };
         let curves = Curves {
@@ -113,7 +113,7 @@ pub(super) fn show(ui: &mut Ui, settings: &Smoothing, scale: Scale, averaged: &m
         terms(ui, &filter, settings.iterations, &mut tried.last_term);
         tried.keep(ui);
     });
-    head.header_response.on_hover_text(say!("panel-response-help"));
+    head.on_hover_text(say!("panel-response-help"));
 }
 
 /// Shows the curve as large as there is room, for whoever presents.

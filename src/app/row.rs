@@ -2,8 +2,8 @@
 
 use egui::collapsing_header::{CollapsingState, paint_default_icon};
 use egui::{
-    Align, CollapsingHeader, Label, Layout, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder,
-    Vec2, vec2,
+    Align, CollapsingHeader, Context, Id, Label, Layout, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke,
+    StrokeKind, Ui, UiBuilder, Vec2, vec2,
 };
 
 use super::assist::{heading, name};
@@ -66,6 +66,9 @@ impl Fold<'_> {
         if response.clicked() {
             state.toggle(ui);
         }
+        if Part::asked(ui).is_some_and(|part| part.step() == self.number) {
+            state.set_open(true);
+        }
         name(&response, Role::DisclosureTriangle, self.title);
         ui.ctx().accesskit_node_builder(response.id, |node| node.set_expanded(state.is_open()));
         let indent = ui.spacing().indent;
@@ -88,6 +91,57 @@ impl Fold<'_> {
             wrapped(ui, self.what, |text| text.small().weak());
             body(ui);
         });
+    }
+}
+
+/// A part of a step that is folded at first, and that a lesson may talk about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// What the filter lets through.
+    Response,
+    /// The error against the number of triangles.
+    Error,
+}
+
+impl Part {
+    /// The number of the step that it is in.
+    fn step(self) -> u32 {
+        match self {
+            Self::Response => 2,
+            Self::Error => 3,
+        }
+    }
+
+    fn id() -> Id {
+        Id::unique("part to be unfolded")
+    }
+
+    /// Lets it be unfolded, with its step, and scrolled to when it is next shown.
+    pub(super) fn unfold(self, ctx: &Context) {
+        ctx.data_mut(|data| data.insert_temp(Self::id(), self));
+    }
+
+    fn asked(ui: &Ui) -> Option<Self> {
+        ui.data(|data| data.get_temp(Self::id()))
+    }
+
+    /// Shows it: its head, and what is in it while it is unfolded.
+    pub(super) fn show(self, ui: &mut Ui, title: String, body: impl FnOnce(&mut Ui)) -> Response {
+        let is_asked = Self::asked(ui) == Some(self);
+        let header = CollapsingHeader::new(title).id_salt(self.salt()).open(is_asked.then_some(true));
+        let head = header.show_unindented(ui, body).header_response;
+        if is_asked {
+            head.scroll_to_me(Some(Align::Center));
+            ui.data_mut(|data| data.remove::<Self>(Self::id()));
+        }
+        head
+    }
+
+    fn salt(self) -> &'static str {
+        match self {
+            Self::Response => "Response",
+            Self::Error => "Error against triangles",
+        }
     }
 }
 

@@ -29,33 +29,49 @@ pub(super) fn show(ui: &mut Ui, given: &Given, has_links: bool, is_measuring: bo
     let place = say!("lesson-place", title = &given.lesson.title, step = given.step + 1, count = count);
     let has_room = ui.available_width() > ROOMY;
     let step = &given.lesson.steps[given.step];
+    let is_last = given.step + 1 == count;
+    let close = |ui: &mut Ui| icon::button(ui, Icon::Close, true, &say!("lesson-close"), &say!("lesson-close-help"));
+    let next = |ui: &mut Ui| {
+        ui.add_enabled(!is_last, Button::new(say!("lesson-next"))).on_hover_text(say!("lesson-next-help"))
+    };
+    let back = |ui: &mut Ui| {
+        ui.add_enabled(given.step > 0, Button::new(say!("lesson-back"))).on_hover_text(say!("lesson-back-help"))
+    };
+    let again = |ui: &mut Ui| ui.button(say!("lesson-again")).on_hover_text(say!("lesson-again-help"));
+    let copy = |ui: &mut Ui| ui.button(say!("lesson-copy-link")).on_hover_text(say!("lesson-copy-link-help"));
+    let has_link = has_links && given.name.is_some();
+    let title = |ui: &mut Ui| ui.add(Label::new(RichText::new(&place).weak()).truncate());
+    // At the side of the window there is height, at its foot width.
+    let is_side = ui.available_height() > ui.available_width();
     ui.horizontal(|ui| {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let close = icon::button(ui, Icon::Close, true, &say!("lesson-close"), &say!("lesson-close-help"));
-            ask(close.clicked(), Action::Close);
-            let is_last = given.step + 1 == count;
-            let next =
-                ui.add_enabled(!is_last, Button::new(say!("lesson-next"))).on_hover_text(say!("lesson-next-help"));
-            ask(next.clicked(), Action::Go(given.step + 1));
-            let back = ui
-                .add_enabled(given.step > 0, Button::new(say!("lesson-back")))
-                .on_hover_text(say!("lesson-back-help"));
-            ask(back.clicked(), Action::Go(given.step.saturating_sub(1)));
-            let again = ui.button(say!("lesson-again")).on_hover_text(say!("lesson-again-help"));
-            ask(again.clicked(), Action::Go(given.step));
-            if has_links && given.name.is_some() && ui.available_width() > NARROWEST {
-                let copy = ui.button(say!("lesson-copy-link")).on_hover_text(say!("lesson-copy-link-help"));
-                ask(copy.clicked(), Action::CopyLink);
+            ask(close(ui).clicked(), Action::Close);
+            if !is_side {
+                ask(next(ui).clicked(), Action::Go(given.step + 1));
+                ask(back(ui).clicked(), Action::Go(given.step.saturating_sub(1)));
+                ask(again(ui).clicked(), Action::Go(given.step));
+                if has_link && ui.available_width() > NARROWEST {
+                    ask(copy(ui).clicked(), Action::CopyLink);
+                }
             }
-            if has_room {
-                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                    ui.add(Label::new(RichText::new(&place).weak()).truncate());
-                });
+            if has_room || is_side {
+                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), title);
             }
         });
     });
+    if is_side {
+        ui.horizontal_wrapped(|ui| {
+            ask(back(ui).clicked(), Action::Go(given.step.saturating_sub(1)));
+            ask(next(ui).clicked(), Action::Go(given.step + 1));
+            ask(again(ui).clicked(), Action::Go(given.step));
+            if has_link {
+                ask(copy(ui).clicked(), Action::CopyLink);
+            }
+        });
+        ui.add_space(8.0);
+    }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        if !has_room {
+        if !has_room && !is_side {
             wrapped(ui, &place, RichText::weak);
         }
         match &step.question {

@@ -87,6 +87,10 @@ pub enum Show {
     Vessels,
     /// The collapses, one by one.
     Collapses,
+    /// What the filter lets through, in the second step of the panel.
+    Response,
+    /// The error against the triangles, in the third.
+    Error,
 }
 
 /// Whether a step has a trial.
@@ -247,6 +251,8 @@ impl Show {
             "classes" => Self::Classes,
             "vessels" => Self::Vessels,
             "collapses" => Self::Collapses,
+            "response" => Self::Response,
+            "error" => Self::Error,
             _ => return None,
         })
     }

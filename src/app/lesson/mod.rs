@@ -19,6 +19,7 @@ use super::deviating::Deviating;
 use super::mode::{Acting, Beside, Layer, Now, Panel, Place};
 use super::options::{Colours, ViewOptions};
 use super::reveal::Reveal;
+use super::row::Part;
 use super::state::State;
 use super::{trial, vessels};
 use crate::engine::Source;
@@ -164,6 +165,8 @@ impl Lessons {
         if now.are_collapses_open != shows(Show::Collapses) {
             asked.push(Ask::Collapses(collapses::action::Action::Toggle));
         }
+        let parts = [(Show::Response, Part::Response), (Show::Error, Part::Error)];
+        asked.extend(parts.into_iter().filter(|(show, _)| shows(*show)).map(|(_, part)| Ask::Unfold(part)));
         self.waiting.clear();
         self.waiting.extend(view.map(Ask::View));
         let stays = now.in_trial && goes_on;

@@ -203,6 +203,7 @@ impl LumenApp {
                 }
             }
             Action::HoldBefore(is_held) => self.views.before_is_held = is_held,
+            Action::Unfold(part) => part.unfold(ctx),
             Action::Lesson(action) => self.act_on_lesson(action, ctx),
             Action::SaveSettings => Sharing::save(state, &mut *self.platform, ctx),
             Action::CopyLink => Sharing::copy_link(state, &*self.platform, ctx),

@@ -161,7 +161,8 @@ impl LumenApp {
     /// Sends on what was done and heard.
     pub(super) fn follow(&mut self, ctx: &egui::Context) {
         // What is played is one step to undo.
-        let is_held = keys::moves_control(ctx) || self.panels.collapses.is_playing() || self.panels.playback.is_playing();
+        let is_held =
+            keys::moves_control(ctx) || self.panels.collapses.is_playing() || self.panels.playback.is_playing();
         self.state.follow(is_held, self.platform.link());
         self.record.follow(&mut self.state, self.platform.link());
         let now = recovery::Now {

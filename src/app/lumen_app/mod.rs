@@ -36,6 +36,10 @@ use crate::say;
 /// A window that is so many times as high as wide has the panel below the views, too: a tablet that is held upright.
 const UPRIGHT: f32 = 1.2;
 
+/// From this width of a window on, in points before any zoom, everything is drawn [`GROWN`] times as large.
+const LARGE: f32 = 1600.0;
+const GROWN: f32 = 1.125;
+
 /// How often the engine is listened to while it works and nothing else moves.
 const LISTEN: Duration = Duration::from_millis(16);
 
@@ -70,6 +74,8 @@ pub struct LumenApp {
     is_stacked: bool,
     /// Whether links can be made here.
     has_links: bool,
+    /// Whether everything is drawn larger, as a large window has room for it.
+    is_large: bool,
 }
 
 impl LumenApp {
@@ -106,6 +112,7 @@ impl LumenApp {
             is_narrow: false,
             is_stacked: false,
             has_links: false,
+            is_large: false,
         };
         if !app.platform.prefers_less_motion() {
             app.views.divider.sweep();
@@ -165,6 +172,16 @@ impl LumenApp {
             self.panels.filling_mut().into_iter().for_each(Filling::refuse);
             self.record.cancel(&mut self.state);
             self.state.warn(&NO_MEMORY.say());
+        }
+    }
+
+    /// Draws everything larger in a large window, and no longer in a smaller one; what a user zooms by goes on top of that.
+    fn suit_window(&mut self, ctx: &egui::Context) {
+        let zoom = ctx.zoom_factor();
+        let is_large = ctx.content_rect().width() * zoom >= LARGE;
+        if is_large != self.is_large {
+            self.is_large = is_large;
+            ctx.set_zoom_factor(if is_large { zoom * GROWN } else { zoom / GROWN });
         }
     }
 
@@ -280,6 +297,7 @@ impl eframe::App for LumenApp {
             self.state.next_unit = None;
             self.platform.read_dropped(dropped, &ctx);
         }
+        self.suit_window(&ctx);
         self.presenter.hear(&ctx);
         let keys = Keys::of(&ctx, self.sheet.is_some(), self.was_typing);
         // A control that has the focus is pressed by Space.

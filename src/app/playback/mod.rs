@@ -132,7 +132,10 @@ impl Panel for Playback {
         ui.horizontal_wrapped(|ui| {
             let plays = open.playing_s.is_some();
             let words = if plays { say!("playback-pause") } else { say!("playback-play") };
-            ask(ui.add(Button::new(words)).on_hover_text(say!("playback-play-help")).clicked(), Ask::Playback(Action::Play));
+            ask(
+                ui.add(Button::new(words)).on_hover_text(say!("playback-play-help")).clicked(),
+                Ask::Playback(Action::Play),
+            );
             let mut period_s = open.period_s;
             let slider = Slider::new(&mut period_s, PERIOD_S.1).logarithmic(true).suffix(" s").max_decimals(0);
             let slider = ui.add(slider.text(say!("playback-period"))).on_hover_text(say!("playback-period-help"));

@@ -15,8 +15,12 @@ use crate::app::state::State;
 use crate::app::theme;
 use crate::app::vessels;
 use crate::language::tell;
+use crate::pipeline::settings::Settings;
 use crate::pipeline::verdict::{Finding, FindingKind, Head, HeadText, Verdict};
 use crate::say;
+
+/// What findings are of: the number of the surface, and the settings.
+type Of = (u64, Settings);
 
 /// Opens the vessels with what is not measured.
 const SHOW_UNMEASURED: Action = Action::Vessels(vessels::Action::ShowUnmeasured);
@@ -62,7 +66,7 @@ pub(in crate::app) fn show(ui: &mut Ui, state: &State, options: ViewOptions, is_
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            buttons(ui, (&verdict, state.generation()), first, is_narrow, asked);
+            buttons(ui, (&verdict, (document.revision.document, state.settings.clone())), first, is_narrow, asked);
             if !is_narrow {
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| sentence(ui, &text));
             }
@@ -82,7 +86,7 @@ pub(in crate::app) fn show(ui: &mut Ui, state: &State, options: ViewOptions, is_
 /// of the sentence.
 fn buttons(
     ui: &mut Ui,
-    (verdict, generation): (&Verdict, u64),
+    (verdict, of): (&Verdict, Of),
     first: Option<&Finding>,
     is_narrow: bool,
     asked: &mut Vec<Action>,
@@ -95,13 +99,18 @@ fn buttons(
     };
     if count > 0 {
         let id = Id::unique("findings");
-        card(ui, &words, WIDEST, &mut |ui, opens| {
-            // As they were when it opened, for as long as they are of what is shown: a button does not move under the pointer.
-            let kept = ui.data(|data| data.get_temp::<(u64, Arc<[Finding]>)>(id));
-            let kept = kept.filter(|(of, _)| !opens && *of == generation);
-            let (_, findings) = kept.unwrap_or_else(|| (generation, verdict.findings.clone().into()));
-            ui.data_mut(|data| data.insert_temp(id, (generation, findings.clone())));
+        card(ui, id, &words, WIDEST, &mut |ui, opens| {
+            // As they were when it opened, for as long as they are of this surface and these settings: a button does not move
+            // under the pointer.
+            let kept = ui.data(|data| data.get_temp::<(Of, Arc<[Finding]>)>(id));
+            let kept = kept.filter(|(kept_of, _)| !opens && *kept_of == of);
+            let findings = kept.map_or_else(|| verdict.findings.clone().into(), |(_, findings)| findings);
+            ui.data_mut(|data| data.insert_temp(id, (of.clone(), findings.clone())));
             let before = asked.len();
+            if is_narrow && verdict.head == Head::KeptWhereMeasured {
+                unmeasured(ui, asked);
+                ui.separator();
+            }
             list(ui, &findings, asked);
             if asked.len() > before {
                 ui.close();
@@ -111,18 +120,23 @@ fn buttons(
     match first {
         Some(finding) if is_narrow => go(ui, finding, asked),
         Some(finding) => act(ui, finding, asked),
-        None if verdict.head == Head::KeptWhereMeasured => {
-            let show = ui.button(say!("verdict-show-unmeasured"));
-            if show.on_hover_text(say!("verdict-show-unmeasured-help")).clicked() {
-                asked.push(SHOW_UNMEASURED);
-            }
-        }
+        // Beside the list a phone has no room for it.
+        None if verdict.head == Head::KeptWhereMeasured && is_narrow && count > 0 => {}
+        None if verdict.head == Head::KeptWhereMeasured => unmeasured(ui, asked),
         None => {
             let vessels = ui.add_enabled(verdict.calibre.is_some(), egui::Button::new(say!("verdict-show-vessels")));
             if vessels.on_hover_text(say!("verdict-show-vessels-help")).clicked() {
                 asked.push(Action::Vessels(vessels::action::Action::Toggle));
             }
         }
+    }
+}
+
+/// The way to what is not measured.
+fn unmeasured(ui: &mut Ui, asked: &mut Vec<Action>) {
+    let show = ui.button(say!("verdict-show-unmeasured"));
+    if show.on_hover_text(say!("verdict-show-unmeasured-help")).clicked() {
+        asked.push(SHOW_UNMEASURED);
     }
 }
 
@@ -140,7 +154,10 @@ fn list(ui: &mut Ui, findings: &[Finding], asked: &mut Vec<Action>) {
         }
         for finding in *part {
             wrapped(ui, &tell(&finding.what), |text| text);
-            ui.horizontal_wrapped(|ui| act(ui, finding, asked));
+            let leads = finding.place.is_some() || matches!(finding.what, FindingKind::LeftOut { .. });
+            if leads || !finding.remedies.is_empty() {
+                ui.horizontal_wrapped(|ui| act(ui, finding, asked));
+            }
         }
     }
 }

@@ -102,7 +102,8 @@ pub(super) fn show(
         }
         if let Some(at_mm) = reference_mm {
             plot.vline(VLine::new("", at_mm).color(strokes.smoothed.color).width(1.5).allow_hover(false));
-            let (side, gap) = if at_mm > branch.length_mm / 2.0 { (Align2::RIGHT_TOP, -0.01) } else { (Align2::LEFT_TOP, 0.01) };
+            let (side, gap) =
+                if at_mm > branch.length_mm / 2.0 { (Align2::RIGHT_TOP, -0.01) } else { (Align2::LEFT_TOP, 0.01) };
             let label = RichText::new(say!("vessels-reference-line")).small().color(strokes.smoothed.color);
             let place = PlotPoint::new(at_mm + gap * branch.length_mm, high);
             plot.text(Text::new("", place, label).anchor(side).allow_hover(false));

@@ -18,7 +18,6 @@ use crate::pipeline::settings::Settings;
 use crate::say;
 use crate::vessel::certificate::{BranchCalibre, Certificate, Change, Verdict};
 use crate::vessel::summary::{in_order, place, summary};
-use crate::vessel::variation::Variation;
 
 /// Height of what is seen at a place that is gone to, in radii of the vessel there.
 const SEEN: f32 = 16.0;
@@ -50,7 +49,9 @@ pub(super) fn show(ui: &mut Ui, shown: Vessels, now: Now<'_>, asked: &mut Vec<Ac
     if is_narrow {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ScrollArea::horizontal().show(ui, |ui| table(ui, &rows, (branch, scrolls), state, asked));
-            ui.allocate_ui(egui::vec2(ui.available_width(), 180.0), |ui| radius(ui, branch, (found, reference_mm), asked));
+            ui.allocate_ui(egui::vec2(ui.available_width(), 180.0), |ui| {
+                radius(ui, branch, (found, reference_mm), asked);
+            });
         });
         return;
     }
@@ -164,9 +165,11 @@ fn radius(
     }
     if wanted != reference_mm {
         asked.push(Action::Vessels(Asked::Refer(wanted)));
-        let label = |found: &Variation| say!("vessels-refers-here", diameter = decimal(found.reference_mm, 2), degree = tell(&found.degree()));
         let found = wanted.and_then(|at_mm| Some((plot::nearest(branch, at_mm)?, branch.narrowest_beside(at_mm)?)));
-        asked.extend(found.map(|(i, found)| Action::Mark { at_mm: branch.at_mm[i], label: label(&found) }));
+        asked.extend(found.map(|(i, found)| {
+            let label = say!("vessels-refers-here", diameter = decimal(found.reference_mm, 2));
+            Action::Mark { at_mm: branch.at_mm[i], label }
+        }));
     }
 }
 

@@ -44,10 +44,13 @@ pub fn as_the_paper(harness: &mut App) {
     settle(harness);
 }
 
-/// Starts a trial by the bar.
+/// Starts a trial by the bar, or by the menu that has its tabs.
 pub fn start(harness: &mut App) {
-    if harness.query_by_role_and_label(Role::Button, "Menu").is_some() {
-        press(harness, "Menu");
+    for menu in ["Prepare", "Menu"] {
+        let is_there = |name| harness.query_all_by_role_and_label(Role::Button, name).next().is_some();
+        if !is_there("Trial") && is_there(menu) {
+            press(harness, menu);
+        }
     }
     press(harness, "Trial");
 }

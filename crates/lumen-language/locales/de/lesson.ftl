@@ -92,6 +92,7 @@ lesson-pass-band-text =
     sample: aorta
     settings: pass-band=2 reduction=0 adapt=no guard=no
     view: anterior
+    show: response
     look: die Filterantwort in Schritt 2 der Seitenleiste, eine gerade Linie bei 100 %.
 
     step: Nur was lang ist
@@ -109,7 +110,7 @@ lesson-pass-band-text =
       Zahl hat keine Einheit: Auf einem feineren Netz bedeutet dasselbe 0,01 kürzere Wellen.
     settings: pass-band=0.01 reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: die Länge im Satz, neben dem Umfang des dünnsten Gefäßes (gepunktet in der Filterantwort).
 
     step: Zu weit
@@ -131,7 +132,7 @@ lesson-windows-text =
     sample: aorta
     settings: pass-band=0.1 iterations=10 reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: die Filterantwort in Schritt 2 der Seitenleiste. Wie breit ist der Abfall von 100 % auf nichts?
     ask: Was ändern mehr Iterationen: wie weit geglättet wird oder wie scharf?
     answer: Wie scharf Wellen unterschieden werden. Das Durchlassband sagt, wo; der Grad sagt, wie steil.
@@ -140,7 +141,7 @@ lesson-windows-text =
     text: Mit 100 ist der Abfall steil und liegt dicht über dem Durchlassband.
     settings: pass-band=0.1 iterations=100 reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: der Punkt bei der halben Verstärkung, der sich zur gestrichelten Linie bewegt hat. Schieben Sie die Terme in der
       Filterantwort von 0 an weiter: So setzt sich die Reihe zu ihr zusammen.
 
@@ -150,7 +151,7 @@ lesson-windows-text =
       wenigsten steil.
     settings: pass-band=0.1 iterations=30 window=nuttall reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: die Kurve, während Sie in Schritt 2 unter Erweitert ein Fenster nach dem anderen wählen.
     ask: Welches der vier hat beim selben Grad den steilsten Abfall?
     answer: Hamming, dann Hanning. Blackman und Nuttall sind weniger wellig und fallen weniger steil.
@@ -166,6 +167,7 @@ lesson-shrinkage-text =
     sample: aorta
     settings: reduction=0 adapt=no guard=no
     view: anterior
+    show: response
     look: das Volumen im Ergebnis am Fuß der Seitenleiste; in der Filterantwort, mit dem Haken bei „Laplace daneben“, was das Mitteln
       vom dünnsten Gefäß übrig ließe.
     ask: Kann ein Filter, der lange Wellen ganz lässt, ein Gefäß trotzdem dünner machen?
@@ -222,7 +224,7 @@ lesson-decimation-text =
     text: Jeder Schritt hat einen Fehler in Millimetern, und jede Reduktionsrate ist zugleich da. So lässt sich die ganze Kurve zeichnen.
     settings: reduction=98
     view: anterior
-    show: deviation
+    show: deviation error
     look: „Fehler über Dreiecken“ in Schritt 3 der Seitenleiste; klicken Sie entlang der Kurve.
     ask: Von 50 % bis 90 % gehen vier von fünf Dreiecken. Wächst der Fehler auf das Fünffache?
     answer: Auf glatten Gefäßen etwa so: Der Fehler wächst mit dem Quadrat der Seite eines Dreiecks, und dieses verhält sich wie eins

@@ -91,6 +91,7 @@ lesson-pass-band-text =
     sample: aorta
     settings: pass-band=2 reduction=0 adapt=no guard=no
     view: anterior
+    show: response
     look: Response in step 2 of the panel: a straight line at 100 %.
 
     step: Only what is long
@@ -107,7 +108,7 @@ lesson-pass-band-text =
       finer mesh the same 0.01 means shorter waves.
     settings: pass-band=0.01 reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: the length in the sentence, beside the circumference of the thinnest vessel (dotted in Response).
 
     step: Too far
@@ -129,7 +130,7 @@ lesson-windows-text =
     sample: aorta
     settings: pass-band=0.1 iterations=10 reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: Response in step 2 of the panel: how wide is the fall from 100 % to nothing?
     ask: What do more iterations change: how far the surface is smoothed, or how sharply?
     answer: How sharply waves are told apart. The pass band says where; the degree says how steep.
@@ -138,7 +139,7 @@ lesson-windows-text =
     text: With 100 the fall is steep and lies close above the pass band.
     settings: pass-band=0.1 iterations=100 reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: the dot at half gain, which has moved towards the dashed line. Move Terms in Response from 0 on: how the series
       adds up to it.
 
@@ -147,7 +148,7 @@ lesson-windows-text =
       paper's, falls steeply and ripples by little; Nuttall ripples least and falls least steeply.
     settings: pass-band=0.1 iterations=30 window=nuttall reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: the curve while you choose one Window after the other, under Advanced in step 2.
     ask: Which of the four has the steepest fall at the same degree?
     answer: Hamming, then Hanning. Blackman and Nuttall ripple less and fall less steeply.
@@ -163,6 +164,7 @@ lesson-shrinkage-text =
     sample: aorta
     settings: reduction=0 adapt=no guard=no
     view: anterior
+    show: response
     look: Volume in the result at the foot of the panel; in Response, with Laplacian beside it ticked, what averaging would
       leave of the thinnest vessel.
     ask: Can a filter that leaves long waves whole still make a vessel thinner?
@@ -218,7 +220,7 @@ lesson-decimation-text =
     text: Each step has an error in millimetres, and every reduction rate is there at once. So the whole curve can be drawn.
     settings: reduction=98
     view: anterior
-    show: deviation
+    show: deviation error
     look: Error against triangles in step 3 of the panel: click along the curve.
     ask: From 50 % to 90 % four of five triangles go. Does the error grow fivefold?
     answer: On smooth vessels about so: the error grows with the square of a triangle's side, and that is as one over their number.

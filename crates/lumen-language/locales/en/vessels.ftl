@@ -71,7 +71,7 @@ vessels-refer-help = Compares the narrowest place of this branch with the place 
 vessels-refer-at = Reference at
 vessels-refer-at-help = Drag, or type a place along the branch
 vessels-refer-reduced = Reduced: { $percent } %
-vessels-refers-here = reference { $diameter } mm; narrowest { $degree }
+vessels-refers-here = reference { $diameter } mm
 vessels-reference-line = reference
 vessels-radius-along = Radius along { $name }
 # The three surfaces, in a legend.

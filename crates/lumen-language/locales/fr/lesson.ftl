@@ -92,6 +92,7 @@ lesson-pass-band-text =
     sample: aorta
     settings: pass-band=2 reduction=0 adapt=no guard=no
     view: anterior
+    show: response
     look: la réponse à l'étape 2 du panneau, une droite à 100 %.
 
     step: Seulement ce qui est long
@@ -109,7 +110,7 @@ lesson-pass-band-text =
       n'a pas d'unité : sur un maillage plus fin le même 0,01 correspond à des ondes plus courtes.
     settings: pass-band=0.01 reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: la longueur dans la phrase, à côté du tour du vaisseau le plus fin (en pointillé dans la réponse).
 
     step: Trop loin
@@ -131,7 +132,7 @@ lesson-windows-text =
     sample: aorta
     settings: pass-band=0.1 iterations=10 reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: la réponse à l'étape 2 du panneau. Quelle est la largeur de la chute de 100 % à rien ?
     ask: Que changent plus d'itérations : jusqu'où la surface est lissée, ou avec quelle netteté ?
     answer: La netteté avec laquelle les ondes sont séparées. La bande passante dit où ; le degré dit avec quelle pente.
@@ -140,7 +141,7 @@ lesson-windows-text =
     text: Avec 100 la chute est raide et tout près au-dessus de la bande passante.
     settings: pass-band=0.1 iterations=100 reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: le point au demi-gain, qui s'est rapproché de la ligne en tirets. Faites avancer les termes dans la réponse à partir de 0 :
       c'est ainsi que la série s'additionne.
 
@@ -149,7 +150,7 @@ lesson-windows-text =
       de l'article, tombe vite et ondule peu ; Nuttall ondule le moins et tombe le moins vite.
     settings: pass-band=0.1 iterations=30 window=nuttall reduction=0 adapt=no guard=no
     view: anterior
-    show: split
+    show: split response
     look: la courbe pendant que vous choisissez une fenêtre après l'autre, sous Avancé à l'étape 2.
     ask: Laquelle des quatre a la chute la plus raide au même degré ?
     answer: Hamming, puis Hanning. Blackman et Nuttall ondulent moins et tombent moins vite.
@@ -165,6 +166,7 @@ lesson-shrinkage-text =
     sample: aorta
     settings: reduction=0 adapt=no guard=no
     view: anterior
+    show: response
     look: le volume dans le résultat au pied du panneau ; dans la réponse, avec « Laplacien à côté » coché, ce que la moyenne
       laisserait du vaisseau le plus fin.
     ask: Un filtre qui laisse les ondes longues entières peut-il quand même amincir un vaisseau ?
@@ -222,7 +224,7 @@ lesson-decimation-text =
     text: Chaque pas a une erreur en millimètres, et tous les taux de réduction sont là d'un coup. La courbe entière peut donc être tracée.
     settings: reduction=98
     view: anterior
-    show: deviation
+    show: deviation error
     look: « Erreur selon les triangles » à l'étape 3 du panneau ; cliquez le long de la courbe.
     ask: De 50 % à 90 %, quatre triangles sur cinq disparaissent. L'erreur est-elle multipliée par cinq ?
     answer: Sur des vaisseaux lisses à peu près : l'erreur croît avec le carré du côté d'un triangle, et ce carré est comme un sur

@@ -245,7 +245,8 @@ impl TrialView {
         let title = if is_on { say!("trial-view-title") } else { say!("trial-title") };
         let axes = document.map(|document| document.import.axes).unwrap_or_default();
         let name = (rect.width() >= WRITTEN_OVER).then_some(trial.name.as_str());
-        let writing = overlay::Writing { title: &title, name, camera: &camera, axes, legend, array: None, is_alone: false };
+        let writing =
+            overlay::Writing { title: &title, name, camera: &camera, axes, legend, array: None, is_alone: false };
         overlay::show(ui, rect, &writing);
         self.say(ui, rect, trial);
         if let Some(problem) = trial.problem.as_ref().filter(|_| trial.mesh().is_some()) {

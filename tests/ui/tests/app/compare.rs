@@ -151,9 +151,9 @@ fn a_view_that_is_left_and_opened_again_shows_the_same() {
         harness.render().unwrap()
     };
     let before = picture(&mut harness);
-    press(&mut harness, "Compare");
-    let left = picture(&mut harness);
     press(&mut harness, "Prepare");
+    let left = picture(&mut harness);
+    press(&mut harness, "Compare");
     assert_eq!(picture(&mut harness).as_raw(), before.as_raw());
     assert_ne!(left.as_raw(), before.as_raw());
 }

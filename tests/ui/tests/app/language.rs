@@ -81,21 +81,22 @@ fn a_language_that_was_chosen_comes_back_at_the_next_start() {
 }
 
 /// The messages of the buttons that the bar may have, from left to right.
-const BAR: [Message; 17] = [
+const BAR: [Message; 18] = [
     Message("app-open"),
     Message("app-open-in"),
     Message("app-sample"),
     Message("app-save"),
     Message("app-undo"),
     Message("app-redo"),
-    Message("app-split"),
-    Message("app-before"),
+    Message("app-prepare"),
     Message("app-compare"),
-    Message("app-trial"),
     Message("app-vessels"),
     Message("app-measure"),
-    Message("app-view"),
+    Message("app-trial"),
     Message("app-learn"),
+    Message("app-split"),
+    Message("app-before"),
+    Message("app-view"),
     Message("app-theme"),
     Message("app-help"),
     Message("app-about"),

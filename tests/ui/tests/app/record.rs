@@ -5,7 +5,9 @@ use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, Kept, Memory, PHONE, app_at, app_in_full, offered, open, page, says, settle_wholly, tube};
+use lumen_ui_tests::{
+    DESKTOP, Kept, Memory, PHONE, app_at, app_in_full, offered, open, page, says, settle_wholly, tube,
+};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 

@@ -5,7 +5,7 @@ use egui::accesskit::Role;
 use egui::{Key, Rect, Vec2, pos2};
 use egui_kittest::kittest::Queryable;
 use lumen_test_support::data::data;
-use lumen_ui_tests::told::{App, FIRST, at_entry, frame, now, press, ready, tell};
+use lumen_ui_tests::told::{App, FIRST, at_entry, frame, now, ready, start, tell};
 use lumen_ui_tests::{DESKTOP, PHONE, app, in_hand, open, settle, unfold};
 
 use crate::mending::faulty;
@@ -182,10 +182,7 @@ fn a_tablet_that_is_held_upright_has_the_views_above_the_panel() {
 fn the_way_on_and_the_way_out_of_a_trial_are_in_sight() {
     for screen in [(DESKTOP, false), (PHONE, true), TABLET] {
         let (mut harness, memory) = open_on(screen);
-        if harness.query_by_role_and_label(Role::Button, "Trial").is_none() {
-            press(&mut harness, "Menu");
-        }
-        press(&mut harness, "Trial");
+        start(&mut harness);
         tell(&mut harness, &memory, [ready(FIRST), now(FIRST, at_entry()), now(FIRST, frame())]);
         harness.run_steps(4);
         let [autopilot, _] = ["Autopilot", "Close"].map(|name| is_in_sight(&harness, screen.0, (Role::Button, name)));

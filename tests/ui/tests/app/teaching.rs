@@ -3,7 +3,7 @@
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Settings, Target};
 use lumen_ui_tests::{DESKTOP, Kept, app, app_in_full, page, says, settle, settle_wholly};
@@ -121,6 +121,40 @@ fn the_card_stands_beside_what_it_tells_one_to_look_at_and_says_that_it_is_being
         assert!(says(&harness, MEASURED), "at {size:?}");
         settle_wholly(&mut harness);
         assert!(!says(&harness, MEASURED), "at {size:?}");
+    }
+}
+
+#[test]
+fn a_step_unfolds_what_it_talks_about_and_scrolls_to_it() {
+    for (lesson, nexts, plot) in [("Pass band", 2, "Half gain"), ("What decimation keeps", 2, "Error against")] {
+        let (mut harness, _) = app(DESKTOP);
+        settle_wholly(&mut harness);
+        let plots = |harness: &Harness<'_, LumenApp>| {
+            let images = harness.query_all_by_role(Role::Image);
+            let found =
+                images.filter(|node| node.accesskit_node().label().is_some_and(|label| label.starts_with(plot)));
+            found.map(|node| node.rect()).collect::<Vec<_>>()
+        };
+        // Folded by the user, with its step.
+        for step in ["Smooth", "Reduce"] {
+            click(&mut harness, step);
+        }
+        assert!(plots(&harness).is_empty());
+        menu(&mut harness, lesson);
+        for _ in 0..nexts {
+            settle_wholly(&mut harness);
+            click(&mut harness, "Next");
+        }
+        settle_wholly(&mut harness);
+        harness.run_steps(20);
+        let found = plots(&harness);
+        let [plot] = found[..] else { panic!("{found:?} in {lesson}") };
+        assert!(plot.top() > 270.0 && plot.bottom() < 760.0, "{plot} in {lesson}");
+        // It is unfolded once: folded again it stays so.
+        click(&mut harness, "Smooth");
+        click(&mut harness, "Reduce");
+        harness.run_steps(6);
+        assert!(plots(&harness).is_empty());
     }
 }
 

@@ -86,15 +86,18 @@ fn on_a_phone_how_much_is_measured_stands_first() {
 fn the_list_of_what_was_found_stays_as_it_opened_while_more_is_found() {
     let (mut harness, memory) = app(DESKTOP);
     settle(&mut harness);
+    memory.borrow_mut().slice = Duration::from_millis(2);
     memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "faulty.obj".to_owned(), bytes: faulty() });
     let list = |harness: &Harness<'_, LumenApp>| {
         let all = harness.query_all_by_role(Role::Button).map(|node| (node.accesskit_node().label(), node.rect()));
-        all.filter(|(label, _)| label.as_ref().is_some_and(|label| label.ends_with(" note") || label.ends_with(" notes")))
-            .map(|(label, rect)| (label.unwrap(), rect))
-            .next()
+        all.filter(|(label, _)| {
+            label.as_ref().is_some_and(|label| label.ends_with(" note") || label.ends_with(" notes"))
+        })
+        .map(|(label, rect)| (label.unwrap(), rect))
+        .next()
     };
     let words = |harness: &Harness<'_, LumenApp>, above: f32| {
-        let labels = harness.query_all_by_role(Role::Label).map(|node| (node.rect(), node.accesskit_node().label()));
+        let labels = harness.query_all_by_role(Role::Label).map(|node| (node.rect(), node.accesskit_node().value()));
         // In the card below the button, over the views.
         let inside = labels.filter(|(rect, _)| rect.left() > 700.0 && rect.top() > above && rect.bottom() < 760.0);
         inside.filter_map(|(rect, label)| Some((label?, rect.min))).collect::<Vec<_>>()
