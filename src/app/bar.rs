@@ -17,7 +17,7 @@ use super::menus::{icon_menu, long_menu, menu};
 use super::mode::{Entry, Group, Mode};
 use super::notices::{Kind, Notice};
 use super::options::{Colours, ViewOptions};
-use super::row::unbroken;
+use super::row::{self, unbroken};
 use super::sides::side_label;
 use super::state::State;
 use super::views::Views;
@@ -473,7 +473,7 @@ pub(super) fn status(
             progress(ui, fraction, width, &say!("app-progress"));
             ui.label(format!("{} {:.0} %", work.label(), fraction * 100.0));
             if let Some(name) = state.opening().filter(|_| !is_narrow) {
-                ui.add(egui::Label::new(RichText::new(name).weak()).truncate());
+                row::name_of_file(ui, &name);
             }
             if ui.button(say!("app-cancel")).on_hover_text(say!("app-cancel-help")).clicked() {
                 asked.push(Action::Cancel);

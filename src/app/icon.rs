@@ -4,7 +4,6 @@ use std::f32::consts::{PI, TAU};
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, pos2, vec2};
 
-use super::assist::name;
 use super::theme;
 
 /// An icon.
@@ -38,7 +37,9 @@ pub(super) enum Icon {
 
 /// A button that is an icon. `label` is its name for assistive tools and stands over its `help`, which says what it does.
 pub(super) fn button(ui: &mut Ui, icon: Icon, enabled: bool, label: &str, help: &str) -> Response {
-    sensed(ui, icon, enabled, Sense::click(), label, help)
+    let response = sensed(ui, icon, enabled, Sense::click(), label, help);
+    response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, enabled && ui.is_enabled(), label));
+    response
 }
 
 /// The same for one that is on or off.
@@ -65,7 +66,7 @@ fn held(ui: &mut Ui, icon: Icon, enabled: bool, is_on: bool, sense: Sense, label
     if is_filled && !(response.hovered() || response.has_focus()) {
         ui.painter().set(under, Shape::rect_filled(response.rect, 4.0, ui.visuals().selection.bg_fill));
     }
-    response.widget_info(|| egui::WidgetInfo::selected(Role::Button, enabled, is_on, label));
+    response.widget_info(|| egui::WidgetInfo::selected(Role::Button, enabled && ui.is_enabled(), is_on, label));
     response
 }
 
@@ -84,18 +85,13 @@ fn sensed(ui: &mut Ui, icon: Icon, enabled: bool, sense: Sense, label: &str, hel
     }
     let colour = if enabled { visuals.fg_stroke.color } else { ui.visuals().weak_text_color().gamma_multiply(0.5) };
     draw(ui.painter(), rect, icon, colour);
-    let response = response.on_hover_ui(|ui| {
+    response.on_hover_ui(|ui| {
         // Such as "Undo (Ctrl+Z)".
         if !help.starts_with(label) {
             ui.strong(label);
         }
         ui.label(help);
-    });
-    response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, enabled, label));
-    if enabled {
-        name(&response, Role::Button, label);
-    }
-    response
+    })
 }
 
 fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {

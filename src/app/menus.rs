@@ -35,7 +35,11 @@ pub(super) fn card(ui: &mut Ui, id: Id, title: &str, width: f32, content: &mut d
         .layout(Layout::top_down(Align::Min))
         .frame(Frame::popup(ui.style()).inner_margin(Margin::same(12)))
         .width(width);
-    card.show(|ui| content(ui, !was_open));
+    let height = (ui.ctx().content_rect().height() - button.rect.bottom() - 2.0 * MARGIN).max(MARGIN);
+    card.show(|ui| {
+        let scrolled = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+        scrolled.show(ui, |ui| content(ui, !was_open));
+    });
 }
 
 /// The same for a menu that may be higher than the window where its rows are for a finger.

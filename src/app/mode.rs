@@ -2,7 +2,7 @@
 //!
 //! One [`Mode`] at a time has the window. A scan covers a trial, a trial covers the comparison, and each of them covers the
 //! method. A surface that has no level yet covers all but a scan. What is covered keeps its state and is shown again when what
-//! covers it is left. Beside the views of the method stands at most one of [`Beside`]. Collapses and a lesson combine with all
+//! covers it is left; a tab of the bar leaves the other tabs. Beside the views of the method stands at most one of [`Beside`]. Collapses and a lesson combine with all
 //! of these.
 //!
 //! Each mode and panel is a [`Panel`] in its own folder, with its state and its actions. Bar, keys, Escape and layout go

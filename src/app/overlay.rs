@@ -59,8 +59,7 @@ const MARGIN: f32 = 12.0;
 /// Below this height what a view says does not fit one below the other, in points.
 const LOW: f32 = 120.0;
 
-/// Says that it is not for clinical decisions. A window says so once: in the bar below, or, where that has no room for it, in
-/// the views.
+/// Says that it is not for clinical decisions: in the bar below, or, where that has no room for it, in each view.
 pub(super) const NOT_CLINICAL: Key = Key("about-not-clinical");
 
 /// Writes over the view in `rect`.
@@ -134,9 +133,10 @@ pub(super) fn ring_at(ui: &Ui, rect: Rect, middle: Pos2, label: &str, colour: Co
     if !inside.contains_rect(place) {
         // Above or below the ring, where the view has room for it.
         let down = if middle.y < rect.center().y { 1.0 } else { -1.0 };
-        let half = text.size().x.min(inside.width()) / 2.0;
-        let x = middle.x.clamp(inside.left() + half, inside.right() - half);
-        place = Align2::CENTER_CENTER.anchor_size(pos2(x, middle.y + down * (RADIUS + 14.0)), text.size());
+        place = Align2::CENTER_CENTER.anchor_size(middle + vec2(0.0, down * (RADIUS + 14.0)), text.size());
+        // What is too wide is read from its beginning.
+        let least = (inside.max - place.size()).min(place.min).max(inside.min);
+        place = Rect::from_min_size(least, place.size());
     }
     painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, ui.visuals().window_fill.gamma_multiply(0.9));
     halo::galley(&painter, place.min, text, colour);

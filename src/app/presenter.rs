@@ -23,26 +23,21 @@ struct Pressed {
 /// Whether someone presents, and what was pressed last.
 #[derive(Default)]
 pub(super) struct Presenter {
-    /// How large everything was before; `None` while nobody presents.
-    zoom_before: Option<f32>,
+    is_on: bool,
     pressed: Vec<Pressed>,
 }
 
 impl Presenter {
     /// Whether someone presents.
     pub(super) fn is_on(&self) -> bool {
-        self.zoom_before.is_some()
+        self.is_on
     }
 
     /// Begins, or ends.
     pub(super) fn toggle(&mut self, ctx: &Context) {
-        if let Some(before) = self.zoom_before.take() {
-            ctx.set_zoom_factor(before);
-        } else {
-            let zoom = ctx.zoom_factor();
-            self.zoom_before = Some(zoom);
-            ctx.set_zoom_factor(zoom * ZOOM);
-        }
+        let zoom = ctx.zoom_factor();
+        ctx.set_zoom_factor(if self.is_on { zoom / ZOOM } else { zoom * ZOOM });
+        self.is_on = !self.is_on;
         self.pressed.clear();
     }
 

@@ -66,7 +66,9 @@ impl Fold<'_> {
         if response.clicked() {
             state.toggle(ui);
         }
-        if Part::asked(ui).is_some_and(|part| part.step() == self.number) {
+        let asked = Part::ALL.into_iter().filter(|part| part.step() == self.number && part.is_asked(ui));
+        let asked: Vec<Part> = asked.collect();
+        if !asked.is_empty() {
             state.set_open(true);
         }
         name(&response, Role::DisclosureTriangle, self.title);
@@ -90,6 +92,8 @@ impl Fold<'_> {
         state.show_body_unindented(ui, |ui| {
             wrapped(ui, self.what, |text| text.small().weak());
             body(ui);
+            // Whether it was there or not: what a filter of no iterations lets through is not shown.
+            ui.data_mut(|data| asked.into_iter().for_each(|part| data.remove::<bool>(part.id())));
         });
     }
 }
@@ -112,27 +116,33 @@ impl Part {
         }
     }
 
-    fn id() -> Id {
-        Id::unique("part to be unfolded")
+    const ALL: [Self; 2] = [Self::Response, Self::Error];
+
+    fn id(self) -> Id {
+        Id::unique(("part to be unfolded", self.salt()))
     }
 
     /// Lets it be unfolded, with its step, and scrolled to when it is next shown.
     pub(super) fn unfold(self, ctx: &Context) {
-        ctx.data_mut(|data| data.insert_temp(Self::id(), self));
+        ctx.data_mut(|data| data.insert_temp(self.id(), true));
     }
 
-    fn asked(ui: &Ui) -> Option<Self> {
-        ui.data(|data| data.get_temp(Self::id()))
+    /// Unfolds nothing more.
+    pub(super) fn forget(ctx: &Context) {
+        ctx.data_mut(|data| Self::ALL.into_iter().for_each(|part| data.remove::<bool>(part.id())));
+    }
+
+    fn is_asked(self, ui: &Ui) -> bool {
+        ui.data(|data| data.get_temp(self.id())).unwrap_or(false)
     }
 
     /// Shows it: its head, and what is in it while it is unfolded.
     pub(super) fn show(self, ui: &mut Ui, title: String, body: impl FnOnce(&mut Ui)) -> Response {
-        let is_asked = Self::asked(ui) == Some(self);
+        let is_asked = self.is_asked(ui);
         let header = CollapsingHeader::new(title).id_salt(self.salt()).open(is_asked.then_some(true));
         let head = header.show_unindented(ui, body).header_response;
         if is_asked {
             head.scroll_to_me(Some(Align::Center));
-            ui.data_mut(|data| data.remove::<Self>(Self::id()));
         }
         head
     }
@@ -213,6 +223,14 @@ pub(super) fn wrapped(ui: &mut Ui, text: &str, look: impl FnOnce(RichText) -> Ri
     let response = ui.add(Label::new(look(RichText::new(unbroken(text)))).wrap());
     // As it is found and searched for.
     name(&response, Role::Label, text);
+}
+
+/// The name of a file in a bar, which leaves room for what stands behind it.
+pub(super) fn name_of_file(ui: &mut Ui, name: &str) {
+    ui.scope(|ui| {
+        ui.set_max_width(0.4 * ui.available_width());
+        ui.add(Label::new(RichText::new(name).weak()).truncate());
+    });
 }
 
 /// Units that stand behind numbers.

@@ -96,3 +96,23 @@ fn a_narrowing_is_a_note_with_its_degree_its_length_and_its_reference() {
     let told = format!("branch 1 is {percent:.0} % narrower over {length:.1} mm");
     assert!(text.contains(&told) && text.contains(" mm, by the diameters at "), "{text}");
 }
+
+#[test]
+fn nothing_is_said_twice() {
+    // One triangle more on an inner edge: the reader says so.
+    let mut mesh = tube(3.0, 60.0, 0.7, 0.05);
+    let [a, b, _] = mesh.triangles[mesh.triangles.len() / 2];
+    mesh.positions.push(mesh.positions[a as usize] * 1.2);
+    mesh.triangles.push([a, b, mesh.positions.len() as u32 - 1]);
+    let import = read(&write(&mesh, None, Format::Obj).unwrap(), "a.obj", &ImportOptions::default()).unwrap();
+    assert!(!import.report.warnings.is_empty());
+    let mut doubled = import.report.clone();
+    doubled.warnings.extend(import.report.warnings.clone());
+    let mut pipeline = Pipeline::new(Arc::new(import.mesh), Settings::default()).with_samples(200);
+    pipeline.finish().unwrap();
+    let report = Report::new("a.obj", &pipeline).unwrap();
+    let [once, twice] = [&import.report, &doubled].map(|import| Verdict::of_run(&pipeline, &report, import, true));
+    assert_eq!(once, twice);
+    let of_file = |verdict: &Verdict| verdict.findings.iter().filter(|finding| finding.what.is_of_file()).count();
+    assert_eq!(of_file(&once), import.report.warnings.len());
+}

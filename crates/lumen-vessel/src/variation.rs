@@ -258,8 +258,11 @@ pub(super) fn narrowest_beside(along: Along<'_>, reference_mm: f64) -> Option<Va
     let peak = (0..all.len()).min_by(|&a, &b| all[a].diameter.total_cmp(&all[b].diameter))?;
     let reference = all.iter().min_by(|a, b| (a.at - reference_mm).abs().total_cmp(&(b.at - reference_mm).abs()))?;
     let (narrowest, part) = (all[peak], all[peak].diameter / reference.diameter);
-    let (first, last) = ends(&all, Kind::Narrower, peak, |_| reference.diameter);
-    let (from_mm, to_mm) = (all[first].at, all[last].at);
+    let mark = |_| reference.diameter;
+    let (first, last) = ends(&all, Kind::Narrower, peak, mark);
+    let from_mm = if first > 0 { crossing(&all, Kind::Narrower, [first, first - 1], mark) } else { all[first].at };
+    let is_last = last + 1 == all.len();
+    let to_mm = if is_last { all[last].at } else { crossing(&all, Kind::Narrower, [last, last + 1], mark) };
     let found = Variation {
         kind: Kind::Narrower,
         degree_percent: 100.0 * (1.0 - part),
@@ -365,14 +368,8 @@ fn stretch(all: &[Sample], usual: &[f64], kind: Kind, peak: usize) -> Option<Var
     if degree < MIN_DEGREE || last - first + 1 < FEWEST || !is_between {
         return None;
     }
-    // Between two stations the diameter crosses the mark in a straight line.
     let mark = |i: usize| reference[0] + reference[1] * (all[i].at - all[peak].at);
-    let crossing = |inner: usize, outer: usize| {
-        let over = |i: usize| departure(kind, all[i].diameter / mark(i)) - WITHIN;
-        let part = over(inner) / (over(inner) - over(outer));
-        all[inner].at + (all[outer].at - all[inner].at) * part.clamp(0.0, 1.0)
-    };
-    let (from_mm, to_mm) = (crossing(first, first - 1), crossing(last, last + 1));
+    let (from_mm, to_mm) = (crossing(all, kind, [first, first - 1], mark), crossing(all, kind, [last, last + 1], mark));
     Some(Variation {
         kind,
         degree_percent: 100.0 * degree,
@@ -399,6 +396,14 @@ fn extreme(all: &[Sample], kind: Kind, peak: usize) -> f64 {
             median(near.iter().map(|sample| sample.alone).collect())
         }
     }
+}
+
+/// Where the diameter is within [`WITHIN`] of `expected`, between a station that is not and its neighbour that is: it goes
+/// there in a straight line.
+fn crossing(all: &[Sample], kind: Kind, [inner, outer]: [usize; 2], expected: impl Fn(usize) -> f64) -> f64 {
+    let over = |i: usize| departure(kind, all[i].diameter / expected(i)) - WITHIN;
+    let part = over(inner) / (over(inner) - over(outer));
+    all[inner].at + (all[outer].at - all[inner].at) * part.clamp(0.0, 1.0)
 }
 
 /// The first and last station around `peak` that differ from `expected` by more than [`WITHIN`].

@@ -31,7 +31,7 @@ impl Panel for CompareView {
             key: Some(egui::Key::C),
             action: Action::Compare,
             is_open: now.mode == Mode::Compare,
-            is_enabled: now.mode != Mode::Scan,
+            is_enabled: true,
         })
     }
 

@@ -7,6 +7,7 @@ use crate::app::action::Action;
 use crate::app::keys::{self, Keys};
 use crate::app::mode::{Acting, Beside, Entry, Group, Layer, Mode, Panel};
 use crate::app::record::Sight;
+use crate::app::row::Part;
 use crate::app::sharing::Sharing;
 use crate::app::sheets::{self, Sheet};
 use crate::app::views::Spot;
@@ -50,6 +51,12 @@ impl LumenApp {
     pub(super) fn entries(&self, mode: Mode) -> Vec<Entry> {
         let mut entries: Vec<Entry> =
             self.panels.all().into_iter().filter_map(|panel| panel.entry(self.now(mode))).collect();
+        // A trial ends by its own buttons or by the first tab, not by a click beside it. A surface on its way in may yet give
+        // back what it covers.
+        let is_free = matches!(mode, Mode::Method | Mode::Compare) && !self.state.awaits_levels();
+        for entry in entries.iter_mut().filter(|entry| entry.group == Group::Tabs && !entry.is_open) {
+            entry.is_enabled &= is_free;
+        }
         let is_open = !entries.iter().any(|entry| entry.group == Group::Tabs && entry.is_open);
         let prepare = Entry {
             group: Group::Tabs,
@@ -145,6 +152,16 @@ impl LumenApp {
     pub(super) fn act(&mut self, action: Action, ctx: &egui::Context) {
         // What was shown of it before is not the last.
         ctx.request_repaint();
+        let needs_level = matches!(action, Action::ToggleTrial | Action::Trial(trial::Action::Start) | Action::Compare);
+        let cancels_playing = action == Action::Cancel && self.panels.playback.is_playing();
+        if needs_level || cancels_playing {
+            // Not that of an instant of what is played.
+            self.panels.playback.close(&mut self.state);
+            self.state.show_level();
+        }
+        if cancels_playing {
+            return;
+        }
         let Some(action) = self.act_on_panels(action, ctx) else { return };
         let keep = self.state.settings.keep;
         let state = &mut self.state;
@@ -254,6 +271,7 @@ impl LumenApp {
             lesson::Action::Choose => self.platform.choose_file(ctx),
             lesson::Action::Go(step) => {
                 self.leave_scan();
+                self.panels.playback.close(&mut self.state);
                 // What was set by hand is a step of its own to undo.
                 self.state.record();
                 let now = lesson::Before {
@@ -276,6 +294,7 @@ impl LumenApp {
                 }
             }
             lesson::Action::Close => {
+                Part::forget(ctx);
                 // A wire is in the level that the lesson has set.
                 let stood = self.panels.lesson.close().filter(|_| !self.panels.trial.trial.is_open());
                 if let Some(stood) = stood {

@@ -59,7 +59,11 @@ impl LumenApp {
         for (index, place) in &feet {
             let card = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
             let frame = |id| match place.clone() {
-                Place::Side(width, range) => Panel::right(id).resizable(true).default_size(width).size_range(range),
+                // Not under the name of the foot: its size is another.
+                Place::Side(width, range) => {
+                    let id = egui::Id::unique((id, "side"));
+                    Panel::right(id).resizable(true).default_size(width).size_range(range)
+                }
                 Place::Foot(height) => Panel::bottom(id).exact_size(height),
                 Place::Panel | Place::Right(..) | Place::Below(..) => Panel::bottom(id),
             };
@@ -136,7 +140,7 @@ impl LumenApp {
         let instead = of_mode.or(taken_by);
         // Who presents sees no method; the trial and a scan cannot be used without.
         if self.presenter.is_on() && instead.is_none() {
-            return self.presented(ui);
+            return self.presented(ui, mode);
         }
         let content = match instead {
             Some(index) if !self.panels.all()[index].has_head() => Content::Plain,
@@ -220,12 +224,13 @@ impl LumenApp {
     }
 
     /// Shows what of the method stays in sight while someone presents.
-    fn presented(&mut self, ui: &mut Ui) {
+    fn presented(&mut self, ui: &mut Ui, mode: Mode) {
         let margin = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
         Panel::bottom("dock").frame(margin).show(ui, |ui| {
             row::docked(ui, |ui| self.dock(ui));
         });
-        if ui.available_width() >= ROOM_TO_PRESENT && self.state.settings.smoothing.iterations > 0 {
+        let has_response = mode == Mode::Method && self.state.settings.smoothing.iterations > 0;
+        if has_response && ui.available_width() >= ROOM_TO_PRESENT {
             let width = 0.36 * ui.available_width();
             Panel::right("response").frame(margin).exact_size(width).show(ui, |ui| {
                 panel::present_response(ui, &self.state);

@@ -74,8 +74,8 @@ pub struct LumenApp {
     is_stacked: bool,
     /// Whether links can be made here.
     has_links: bool,
-    /// Whether everything is drawn larger, as a large window has room for it.
-    is_large: bool,
+    /// The zoom with which everything is drawn larger, while a large window has room for that.
+    grown: Option<f32>,
 }
 
 impl LumenApp {
@@ -112,7 +112,7 @@ impl LumenApp {
             is_narrow: false,
             is_stacked: false,
             has_links: false,
-            is_large: false,
+            grown: None,
         };
         if !app.platform.prefers_less_motion() {
             app.views.divider.sweep();
@@ -175,13 +175,26 @@ impl LumenApp {
         }
     }
 
-    /// Draws everything larger in a large window, and no longer in a smaller one; what a user zooms by goes on top of that.
+    /// Draws everything larger in a large window, and no longer in a smaller one. A zoom that the user has chosen meanwhile
+    /// stays.
     fn suit_window(&mut self, ctx: &egui::Context) {
+        if self.presenter.is_on() {
+            return;
+        }
         let zoom = ctx.zoom_factor();
-        let is_large = ctx.content_rect().width() * zoom >= LARGE;
-        if is_large != self.is_large {
-            self.is_large = is_large;
-            ctx.set_zoom_factor(if is_large { zoom * GROWN } else { zoom / GROWN });
+        let width = ctx.content_rect().width() * zoom;
+        match self.grown {
+            None if width >= LARGE => {
+                self.grown = Some(zoom * GROWN);
+                ctx.set_zoom_factor(zoom * GROWN);
+            }
+            Some(grown) if width < 0.95 * LARGE => {
+                self.grown = None;
+                if (zoom / grown - 1.0).abs() < 0.01 {
+                    ctx.set_zoom_factor(zoom / GROWN);
+                }
+            }
+            _ => {}
         }
     }
 

@@ -191,7 +191,7 @@ impl Panel for Measuring {
             key: Some(egui::Key::M),
             action: TOGGLE,
             is_open,
-            is_enabled: now.has_level() && now.mode != Mode::Scan || is_open,
+            is_enabled: now.has_level() || is_open,
         })
     }
 

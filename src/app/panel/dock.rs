@@ -21,8 +21,6 @@ use crate::say;
 const WIDE: f32 = 560.0;
 /// Room between sliders that stand side by side, in points.
 const GAP: f32 = 24.0;
-/// Part of a row that its two lines of label may take.
-const LABELS: f32 = 0.6;
 
 /// Shows the dock. Its height depends on the width alone, whatever is known.
 pub(in crate::app) fn dock(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
@@ -148,7 +146,7 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
     let wanted = percent.map(verdict::rate);
     let rests = coverage.as_deref().or(refused.as_deref()).unwrap_or("...");
     let line = |ui: &mut Ui| ui.add(Label::new(RichText::new(rests).small()).truncate());
-    let control = |ui: &mut Ui| {
+    let mut control = |ui: &mut Ui| {
         let go =
             ui.add_enabled(wanted.is_some_and(|wanted| wanted != *target), egui::Button::new(say!("panel-go-there")));
         if let Some(wanted) = wanted.filter(|_| go.on_hover_text(say!("panel-safe-go-help")).clicked()) {
@@ -168,13 +166,14 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
         // A row for a finger has room for two lines.
         Form::Low => {
             ui.horizontal(|ui| {
-                ui.vertical(|ui| {
-                    ui.set_max_width(ui.available_width() * LABELS);
-                    ui.spacing_mut().item_spacing.y = 0.0;
-                    ui.label(label).on_hover_text(help);
-                    line(ui);
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    control(ui);
+                    ui.vertical(|ui| {
+                        ui.spacing_mut().item_spacing.y = 0.0;
+                        ui.add(Label::new(label).truncate()).on_hover_text(help);
+                        line(ui);
+                    });
                 });
-                ui.with_layout(Layout::right_to_left(Align::Center), control);
             });
         }
     }

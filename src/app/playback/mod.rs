@@ -7,15 +7,17 @@ pub(super) mod action;
 
 use std::ops::RangeInclusive;
 
-use egui::{Button, Slider, Ui};
+use egui::{Align, Label, Layout, Role, Slider, Ui};
 
 pub use self::action::Action;
 use super::action::Action as Ask;
+use super::assist::describe;
 use super::document::Document;
+use super::icon::{self, Icon};
 use super::mode::{Acting, Beside, Entry, Group, Layer, Mode, Now, Panel, Place};
 use super::platform::Platform;
+use super::record;
 use super::state::State;
-use super::{record, theme};
 use crate::language::{Key, decimal};
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::settings::{Settings, Target};
@@ -25,6 +27,9 @@ use crate::say;
 const PERIOD_S: (f64, RangeInclusive<f64>) = (12.0, 4.0..=60.0);
 /// One triangle in so many is left at the far end: 99.9 %.
 const LEAST_PART: f64 = 1000.0;
+/// From this width on all of it stands in one row, in points, and what its panel leaves at both sides.
+const ROW: f32 = 720.0;
+const MARGIN: f32 = 32.0;
 /// The longest step of the clock, in seconds: after a pause of the window it goes on where it was.
 const LONGEST_S: f64 = 0.1;
 
@@ -68,11 +73,10 @@ impl Playback {
         if open.set.is_some_and(|set| set != state.settings.target) {
             (open.playing_s, open.set, open.before) = (None, None, state.settings.target);
         }
-        let since_s = now_s - open.playing_s?;
         if mode != Mode::Method {
-            open.playing_s = None;
-            return None;
+            return Some(TOGGLE);
         }
+        let since_s = now_s - open.playing_s?;
         open.playing_s = Some(now_s);
         open.phase = (open.phase + since_s.clamp(0.0, LONGEST_S) / open.period_s).fract();
         let target = Target::Triangles(count(levels, open.phase) as u32);
@@ -81,7 +85,7 @@ impl Playback {
     }
 
     /// Closes the panel, and gives back the target that was there before.
-    fn close(&mut self, state: &mut State) {
+    pub(super) fn close(&mut self, state: &mut State) {
         if let Some(open) = self.0.take()
             && open.set == Some(state.settings.target)
         {
@@ -101,9 +105,10 @@ impl Panel for Playback {
         self.0.is_some()
     }
 
-    fn place(&self, ui: &Ui, now: Now<'_>) -> Place {
-        let rows = if now.is_narrow { 2.0 } else { 1.0 };
-        Place::Below(rows * (theme::row(ui.ctx(), 28.0) + ui.spacing().item_spacing.y) + 16.0, None)
+    fn place(&self, ui: &Ui, _: Now<'_>) -> Place {
+        let rows = if ui.available_width() < ROW { 2.0 } else { 1.0 };
+        let height = ui.spacing().interact_size.y;
+        Place::Below(rows * height + (rows - 1.0) * ui.spacing().item_spacing.y + 16.0, None)
     }
 
     fn entry(&self, now: Now<'_>) -> Option<Entry> {
@@ -129,28 +134,47 @@ impl Panel for Playback {
                 asked.push(action);
             }
         };
-        ui.horizontal_wrapped(|ui| {
-            let plays = open.playing_s.is_some();
-            let words = if plays { say!("playback-pause") } else { say!("playback-play") };
-            ask(
-                ui.add(Button::new(words)).on_hover_text(say!("playback-play-help")).clicked(),
-                Ask::Playback(Action::Play),
-            );
-            let mut period_s = open.period_s;
-            let slider = Slider::new(&mut period_s, PERIOD_S.1).logarithmic(true).suffix(" s").max_decimals(0);
-            let slider = ui.add(slider.text(say!("playback-period"))).on_hover_text(say!("playback-period-help"));
-            ask(slider.changed(), Ask::Playback(Action::Last(period_s)));
-            let document = now.state.document.as_ref();
-            let counts = levels(document).zip(document.and_then(|document| document.shown.as_ref()));
-            if let Some((levels, shown)) = counts {
-                let (left, all) = (shown.level.triangles.len(), levels.triangles.len().max(1));
-                let percent = decimal(100.0 * (1.0 - left as f64 / all as f64), 1);
-                ui.label(say!("playback-level", percent = percent, count = left));
-            }
-            let save = ui.button(say!("playback-save")).on_hover_text(say!("playback-save-help"));
-            ask(save.clicked(), Ask::Record(record::Action::Film));
-            ask(ui.button(say!("playback-close")).on_hover_text(say!("playback-close-help")).clicked(), TOGGLE);
+        let (plays, mut period_s) = (open.playing_s.is_some(), open.period_s);
+        let is_row = ui.available_width() + MARGIN >= ROW;
+        let document = now.state.document.as_ref();
+        let counts = levels(document).zip(document.and_then(|document| document.shown.as_ref()));
+        let level = counts.map(|(levels, shown)| {
+            let (left, all) = (shown.level.triangles.len(), levels.triangles.len().max(1));
+            let percent = decimal(100.0 * (1.0 - left as f64 / all as f64), 1);
+            say!("app-playback-level", percent = percent, count = left)
         });
+        let mut row = |ui: &mut Ui, has_speed: bool, has_level: bool| {
+            ui.horizontal(|ui| {
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    if has_speed {
+                        let (close, help) = (say!("app-playback-close"), say!("app-playback-close-help"));
+                        ask(icon::button(ui, Icon::Close, true, &close, &help).clicked(), TOGGLE);
+                    }
+                    if has_level {
+                        let save = ui.button(say!("app-playback-save")).on_hover_text(say!("app-playback-save-help"));
+                        ask(save.clicked(), Ask::Record(record::Action::Film));
+                    }
+                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                        if has_speed {
+                            let words = if plays { say!("app-playback-pause") } else { say!("app-playback-play") };
+                            let play = ui.button(words).on_hover_text(say!("app-playback-play-help"));
+                            ask(play.clicked(), Ask::Playback(Action::Play));
+                            let slider = Slider::new(&mut period_s, PERIOD_S.1).logarithmic(true).suffix(" s");
+                            let slider = ui.add(slider.max_decimals(0)).on_hover_text(say!("app-playback-period-help"));
+                            describe(&slider, Role::Slider, &say!("app-playback-period"), period_s);
+                            ask(slider.changed(), Ask::Playback(Action::Last(period_s)));
+                        }
+                        if let Some(level) = level.as_ref().filter(|_| has_level) {
+                            ui.add(Label::new(level).truncate());
+                        }
+                    });
+                });
+            });
+        };
+        row(ui, true, is_row);
+        if !is_row {
+            row(ui, false, true);
+        }
     }
 
     fn act(&mut self, action: Ask, acting: &mut Acting<'_>) -> Option<Ask> {

@@ -199,7 +199,7 @@ impl Job {
             let steps = levels.steps_to(playback::count(&levels, f64::from(i) / f64::from(FRAMES)));
             let count = levels.triangles_after(steps);
             let percent = 100.0 * (1.0 - count as f64 / levels.triangles.len().max(1) as f64);
-            let title = say!("playback-level", percent = decimal(percent, 1), count = count);
+            let title = say!("app-playback-level", percent = decimal(percent, 1), count = count);
             let marks = Marks { alone: Some(Alone { title, legend: None, array: None }), ..pose.marks.clone() };
             let levels = levels.clone();
             let seat = move || {

@@ -6,7 +6,7 @@ use super::state::OpenScan;
 use super::{Action, histogram, slices_panel};
 use crate::app::assist::{describe, name};
 use crate::app::control::{self, Setting, reads_comma};
-use crate::app::row::{number, remark, row, step, warning};
+use crate::app::row::{self, number, remark, row, step, warning};
 use crate::app::swipe::Way;
 use crate::engine::scan::ScanWork;
 use crate::language::{Key, decimal, grouped, inner, tell};
@@ -218,9 +218,14 @@ pub(super) fn status(
         ui.label(format!("{} {:.0} %", label(work).say(), fraction * 100.0));
     }
     if !is_narrow {
-        ui.add(egui::Label::new(RichText::new(file).weak()).truncate());
+        row::name_of_file(ui, file);
     }
     if ui.button(say!("scan-cancel")).on_hover_text(say!("scan-cancel-help")).clicked() {
         asked.push(Action::Cancel);
+    }
+    if !is_narrow {
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.label(RichText::new(say!("about-not-clinical")).small().weak());
+        });
     }
 }

@@ -110,7 +110,7 @@ impl Panel for TrialPanel {
             key: None,
             action: Action::ToggleTrial,
             is_open: now.mode == Mode::Trial,
-            is_enabled: now.has_level() && now.mode != Mode::Scan,
+            is_enabled: now.has_level(),
         })
     }
 

@@ -102,16 +102,16 @@ fn buttons(
         card(ui, id, &words, WIDEST, &mut |ui, opens| {
             // As they were when it opened, for as long as they are of this surface and these settings: a button does not move
             // under the pointer.
-            let kept = ui.data(|data| data.get_temp::<(Of, Arc<[Finding]>)>(id));
+            let kept = ui.data(|data| data.get_temp::<(Of, Arc<Verdict>)>(id));
             let kept = kept.filter(|(kept_of, _)| !opens && *kept_of == of);
-            let findings = kept.map_or_else(|| verdict.findings.clone().into(), |(_, findings)| findings);
-            ui.data_mut(|data| data.insert_temp(id, (of.clone(), findings.clone())));
+            let kept = kept.map_or_else(|| Arc::new(verdict.clone()), |(_, kept)| kept);
+            ui.data_mut(|data| data.insert_temp(id, (of.clone(), kept.clone())));
             let before = asked.len();
-            if is_narrow && verdict.head == Head::KeptWhereMeasured {
+            if is_narrow && kept.head == Head::KeptWhereMeasured {
                 unmeasured(ui, asked);
                 ui.separator();
             }
-            list(ui, &findings, asked);
+            list(ui, &kept.findings, asked);
             if asked.len() > before {
                 ui.close();
             }

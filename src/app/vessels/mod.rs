@@ -56,7 +56,7 @@ impl Panel for Vessels {
             key: Some(egui::Key::V),
             action: TOGGLE,
             is_open,
-            is_enabled: now.has_level() && now.mode != Mode::Scan || is_open,
+            is_enabled: now.has_level() || is_open,
         })
     }
 

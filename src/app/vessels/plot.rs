@@ -36,12 +36,13 @@ pub(super) enum Asked {
     Reference(f64),
 }
 
-/// Shows the radii of `branch`, beside what is allowed, and a line at the reference, which can be dragged.
+/// Shows the radii of `branch`, beside what is allowed, and a line at the reference, which can be dragged; down to `bottom`
+/// where that is not too low.
 pub(super) fn show(
     ui: &mut Ui,
     branch: &BranchCalibre,
     tolerance_percent: f64,
-    reference_mm: Option<f64>,
+    (reference_mm, bottom): (Option<f64>, f32),
 ) -> Option<Asked> {
     let strokes = Strokes::of(ui.visuals());
     let names = [say!("vessels-as-opened"), say!("vessels-smoothed"), say!("vessels-reduced")];
@@ -73,7 +74,7 @@ pub(super) fn show(
         .tick_label_font(font)
         .min_thickness(40.0);
     let plot = still(Plot::new(("radius", branch.number)))
-        .height(ui.available_height().max(120.0))
+        .height((bottom - ui.cursor().top()).max(100.0))
         .custom_x_axes(vec![x_axis])
         .custom_y_axes(vec![y_axis])
         .label_formatter(hover_text);

@@ -60,7 +60,8 @@ pub(super) fn show(ui: &mut Ui, shown: Vessels, now: Now<'_>, asked: &mut Vec<Ac
         ui.allocate_ui(egui::vec2(room * (1.0 - PLOT), height), |ui| {
             ScrollArea::both().auto_shrink(false).show(ui, |ui| table(ui, &rows, (branch, scrolls), state, asked));
         });
-        ui.vertical(|ui| radius(ui, branch, (found, reference_mm), asked));
+        let column = ScrollArea::vertical().id_salt("radius").max_height(height);
+        ui.vertical(|ui| column.show(ui, |ui| radius(ui, branch, (found, reference_mm), asked)));
     });
 }
 
@@ -153,20 +154,22 @@ fn radius(
     (found, reference_mm): (&Certificate, Option<f64>),
     asked: &mut Vec<Action>,
 ) {
+    let bottom = ui.clip_rect().bottom().min(ui.max_rect().bottom());
     for stretch in branch.uneven().into_iter().flatten() {
         let told = say!("vessels-uneven", stretch = tell(&stretch.text()), reference = tell(&stretch.reference()));
         ui.add(egui::Label::new(RichText::new(told).small()).wrap());
     }
     let mut wanted = reference(ui, branch, reference_mm);
-    match plot::show(ui, branch, found.tolerance_percent, reference_mm) {
+    match plot::show(ui, branch, found.tolerance_percent, (reference_mm, bottom)) {
         Some(plot::Asked::Station(i)) => asked.extend(go_to_station(branch, i)),
         Some(plot::Asked::Reference(at_mm)) => wanted = Some(at_mm),
         None => {}
     }
     if wanted != reference_mm {
         asked.push(Action::Vessels(Asked::Refer(wanted)));
-        let found = wanted.and_then(|at_mm| Some((plot::nearest(branch, at_mm)?, branch.narrowest_beside(at_mm)?)));
-        asked.extend(found.map(|(i, found)| {
+        let found = wanted.and_then(|at_mm| branch.narrowest_beside(at_mm));
+        let place = found.and_then(|found| Some((plot::nearest(branch, found.sides[0]?.abscissa_mm)?, found)));
+        asked.extend(place.map(|(i, found)| {
             let label = say!("vessels-refers-here", diameter = decimal(found.reference_mm, 2));
             Action::Mark { at_mm: branch.at_mm[i], label }
         }));
@@ -198,7 +201,7 @@ fn reference(ui: &mut Ui, branch: &BranchCalibre, reference_mm: Option<f64>) -> 
             Some(percent) => format!("{told}. {}", say!("vessels-refer-reduced", percent = decimal(percent, 0))),
             None => told,
         };
-        ui.add(egui::Label::new(RichText::new(told).small()).wrap());
+        wrapped(ui, &told, RichText::small);
     }
     wanted
 }

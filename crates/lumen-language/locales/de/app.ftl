@@ -96,7 +96,7 @@ app-open-lesson-help = Eine Datei mit der Endung .lesson; sie kann auch hierher 
 app-collapses = Kollapse, einzeln
 app-collapses-help = Was die Dezimierung als Nächstes nimmt, wohin es geht und was es kostet; ein Klick fragt, warum ein Eckpunkt bleiben muss
 app-playback = Reduktion abspielen
-app-playback-help = Von allen Dreiecken bis 99,9 % weniger und zurück, immer wieder
+app-playback-help = Von allen Dreiecken bis 99,9 % weniger und zurück, immer wieder
 app-glossary = Glossar
 app-glossary-help = Die Begriffe des Verfahrens, je in einem Satz
 
@@ -357,3 +357,19 @@ app-devices-not-listed = das System listet seine Geräte nicht auf: { $error }
 app-device-not-opened = { $name } kann nicht geöffnet werden: { $error } (unter Linux ist eine udev-Regel nötig, siehe docs/haptics.md)
 app-haply-not-there = Haplys Dienst antwortet auf diesem Rechner nicht ({ $address }): bitte starten und das Gerät noch einmal wählen ({ $error })
 app-haply-no-arm = Haplys Dienst hat keinen Inverse3: bitte anschließen und das Gerät noch einmal wählen
+
+## Die Reduktion, von allen Dreiecken bis zu den wenigsten und zurück abgespielt
+
+app-playback-play = Abspielen
+app-playback-pause = Anhalten
+app-playback-play-help = Von allen Dreiecken bis 99,9 % weniger und zurück; in jeder Sekunde um den gleichen Teil
+app-playback-period = hin und zurück
+app-playback-period-help = Wie lange das dauert, in Sekunden
+app-playback-level = { $count ->
+    [one] { $percent } %: { $count } Dreieck
+   *[other] { $percent } %: { $count } Dreiecke
+}
+app-playback-save = Sichern (APNG)...
+app-playback-save-help = Dasselbe als bewegtes Bild, von dort gesehen, von wo die Ansicht jetzt blickt
+app-playback-close = Schließen
+app-playback-close-help = Schließt es; die Reduktion von vorher kommt zurück

@@ -16,7 +16,7 @@ lesson-copy-link = Link kopieren
 lesson-copy-link-help = Öffnet diesen Schritt für alle, die ihm folgen
 # $what ist, was in einem Schritt hinter „look:“ steht, in den Lektionen unten oder in der einer Lehrkraft.
 lesson-look = Im Blick: { $what }
-# Below it, while numbers are still to come.
+# Darunter, solange Zahlen noch ausstehen.
 lesson-measuring = Wird gemessen: die Zahlen folgen.
 lesson-show-answer = Antwort zeigen
 lesson-show-answer-help = Zuerst selbst antworten

@@ -37,16 +37,3 @@ record-cannot-draw = Es lässt sich nicht zeichnen: { $why }.
 record-not-drawn = Es wurde nicht gezeichnet: { $why }.
 record-device-gone = Es wurde nicht gezeichnet: Das Grafikgerät ist weggefallen.
 record-error-too-large = dieses Grafikgerät zeichnet Bilder von höchstens { $limit } Pixeln je Richtung
-
-## The reduction, played from all triangles to the fewest and back
-
-playback-play = Abspielen
-playback-pause = Anhalten
-playback-play-help = Von allen Dreiecken bis 99,9 % weniger und zurück; in jeder Sekunde um den gleichen Teil
-playback-period = hin und zurück
-playback-period-help = Wie lange das dauert, in Sekunden
-playback-level = { $percent } %: { $count } Dreiecke
-playback-save = Sichern (APNG)...
-playback-save-help = Dasselbe als bewegtes Bild, von dort gesehen, von wo die Ansicht jetzt blickt
-playback-close = Schließen
-playback-close-help = Schließt es; die Reduktion von vorher kommt zurück

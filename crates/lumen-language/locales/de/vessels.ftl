@@ -78,7 +78,7 @@ vessels-at-ends = Es ist zu kurz: Es liegt ganz an Enden oder Gabelungen.
 vessels-radius-head = Radius entlang von { $name }:
 # Darüber: ein Abschnitt, der enger oder weiter ist als zu beiden Seiten, und womit er verglichen ist.
 vessels-uneven = { $stretch }: { $reference }
-# The narrowest place beside another that the user has chosen.
+# Die engste Stelle neben einer anderen, die gewählt wurde.
 vessels-refer = Eigene Referenz
 vessels-refer-help = Vergleicht die engste Stelle dieses Astes mit der gewählten Stelle, nach dem Durchmesser des flächengleichen Kreises: die Linie im Bild ziehen
 vessels-refer-at = Referenz bei

@@ -105,7 +105,7 @@ app-open-lesson-help = A file that ends in .lesson; it can be dropped here, too
 app-collapses = Collapses, one by one
 app-collapses-help = What decimation takes next, where it goes and what it costs; a click asks why a vertex may not go
 app-playback = Play the reduction
-app-playback-help = From all triangles to 99.9 % fewer and back, again and again
+app-playback-help = From all triangles to 99.9 % fewer and back, again and again
 app-glossary = Glossary
 app-glossary-help = The words of the method, in a sentence each
 
@@ -383,3 +383,19 @@ app-device-not-opened = { $name } cannot be opened: { $error } (on Linux it need
 # An arm of the company Haply, which a program of theirs on the same computer speaks for.
 app-haply-not-there = Haply's service does not answer on this computer ({ $address }): start it, and choose the device again ({ $error })
 app-haply-no-arm = Haply's service has no Inverse3: connect it, and choose the device again
+
+## The reduction, played from all triangles to the fewest and back
+
+app-playback-play = Play
+app-playback-pause = Pause
+app-playback-play-help = From all triangles to 99.9 % fewer and back; the same part fewer in each second
+app-playback-period = there and back
+app-playback-period-help = How long that takes, in seconds
+app-playback-level = { $count ->
+    [one] { $percent } %: { $count } triangle
+   *[other] { $percent } %: { $count } triangles
+}
+app-playback-save = Save (APNG)...
+app-playback-save-help = The same as a picture that moves, from where the view looks now
+app-playback-close = Close
+app-playback-close-help = Closes it; the reduction that was set before comes back

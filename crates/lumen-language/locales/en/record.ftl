@@ -39,16 +39,3 @@ record-not-drawn = It was not drawn: { $why }.
 record-device-gone = It was not drawn: the device went away.
 # Said after a colon; a full stop follows.
 record-error-too-large = this graphics device draws pictures of at most { $limit } pixels each way
-
-## The reduction, played from all triangles to the fewest and back
-
-playback-play = Play
-playback-pause = Pause
-playback-play-help = From all triangles to 99.9 % fewer and back; the same part fewer in each second
-playback-period = there and back
-playback-period-help = How long that takes, in seconds
-playback-level = { $percent } %: { $count } triangles
-playback-save = Save (APNG)...
-playback-save-help = The same as a picture that moves, from where the view looks now
-playback-close = Close
-playback-close-help = Closes it; the reduction that was set before comes back

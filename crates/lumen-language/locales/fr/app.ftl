@@ -95,8 +95,8 @@ app-open-lesson = Ouvrir une leçon...
 app-open-lesson-help = Un fichier en .lesson ; on peut aussi le déposer ici
 app-collapses = Contractions, une à une
 app-collapses-help = Ce que la décimation prend ensuite, où cela va et ce que cela coûte ; un clic demande pourquoi un sommet doit rester
-app-playback = Jouer la réduction
-app-playback-help = De tous les triangles à 99,9 % de moins et retour, sans fin
+app-playback = Animer la réduction
+app-playback-help = De tous les triangles à 99,9 % de moins et retour, sans fin
 app-glossary = Glossaire
 app-glossary-help = Les mots de la méthode, en une phrase chacun
 
@@ -357,3 +357,19 @@ app-devices-not-listed = le système ne donne pas la liste de ses appareils : {
 app-device-not-opened = { $name } ne peut pas être ouvert : { $error } (sous Linux, il faut une règle udev, voir docs/haptics.md)
 app-haply-not-there = le service de Haply ne répond pas sur cet ordinateur ({ $address }) : le démarrer, puis choisir l'appareil à nouveau ({ $error })
 app-haply-no-arm = le service de Haply n'a pas d'Inverse3 : le brancher, puis choisir l'appareil à nouveau
+
+## La réduction, de tous les triangles au plus petit nombre et retour
+
+app-playback-play = Lire
+app-playback-pause = Pause
+app-playback-play-help = De tous les triangles à 99,9 % de moins et retour ; la même part de moins à chaque seconde
+app-playback-period = aller et retour
+app-playback-period-help = Combien de temps cela prend, en secondes
+app-playback-level = { $count ->
+    [one] { $percent } % : { $count } triangle
+   *[other] { $percent } % : { $count } triangles
+}
+app-playback-save = Enregistrer (APNG)...
+app-playback-save-help = La même chose en image animée, vue d'où la vue regarde à présent
+app-playback-close = Fermer
+app-playback-close-help = Ferme ; la réduction d'avant revient

@@ -16,7 +16,7 @@ lesson-copy-link = Copier le lien
 lesson-copy-link-help = Ouvre cette étape pour qui le suit
 # $what est ce qui suit « look: » dans une étape d'une leçon, de celles d'en bas ou de celle d'un enseignant.
 lesson-look = À regarder : { $what }
-# Below it, while numbers are still to come.
+# En dessous, tant que des nombres manquent encore.
 lesson-measuring = Mesure en cours : les nombres suivent.
 lesson-show-answer = Voir la réponse
 lesson-show-answer-help = Donner d'abord la sienne

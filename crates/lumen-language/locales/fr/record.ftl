@@ -37,16 +37,3 @@ record-cannot-draw = Dessin impossible : { $why }.
 record-not-drawn = Le dessin n'a pas abouti : { $why }.
 record-device-gone = Le dessin n'a pas abouti : le périphérique graphique a disparu.
 record-error-too-large = ce périphérique graphique dessine des images d'au plus { $limit } pixels dans chaque sens
-
-## The reduction, played from all triangles to the fewest and back
-
-playback-play = Jouer
-playback-pause = Pause
-playback-play-help = De tous les triangles à 99,9 % de moins et retour ; la même part de moins à chaque seconde
-playback-period = aller et retour
-playback-period-help = Combien de temps cela prend, en secondes
-playback-level = { $percent } % : { $count } triangles
-playback-save = Enregistrer (APNG)...
-playback-save-help = La même chose en image animée, vue d'où la vue regarde à présent
-playback-close = Fermer
-playback-close-help = Ferme ; la réduction d'avant revient

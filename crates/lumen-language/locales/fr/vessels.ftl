@@ -78,7 +78,7 @@ vessels-at-ends = Il est trop court : tout entier à des extrémités ou à des
 vessels-radius-head = Rayon le long de la { $name } :
 # Au-dessus : une portion plus étroite ou plus large que de part et d'autre, et ce à quoi elle est comparée.
 vessels-uneven = { $stretch } : { $reference }
-# The narrowest place beside another that the user has chosen.
+# L'endroit le plus étroit, comparé à un autre que l'on a choisi.
 vessels-refer = Référence choisie
 vessels-refer-help = Compare l'endroit le plus étroit de cette branche à l'endroit choisi, d'après le diamètre du cercle de même aire : faire glisser la ligne dans le tracé
 vessels-refer-at = Référence à

@@ -68,7 +68,7 @@ fn one_tab_is_open_at_a_time_and_the_first_leads_back() {
         TABS.into_iter().filter(is_open).collect::<Vec<_>>()
     };
     assert_eq!(open(&harness), ["Prepare"]);
-    for tab in ["Compare", "Vessels", "Measure", "Trial", "Vessels", "Compare", "Trial", "Measure", "Prepare"] {
+    for tab in ["Compare", "Vessels", "Measure", "Trial", "Prepare", "Vessels", "Compare", "Trial", "Prepare"] {
         for _again in 0..2 {
             harness.query_all_by_role_and_label(Role::Button, tab).next().expect(tab).click();
             harness.run_steps(3);
@@ -84,6 +84,13 @@ fn one_tab_is_open_at_a_time_and_the_first_leads_back() {
         );
         assert_eq!(harness.query_all_by_label("Ruler").next().is_some(), tab == "Measure", "{tab}");
     }
+    // A trial is not ended by a click beside it.
+    press(&mut harness, "Trial");
+    for tab in ["Compare", "Vessels", "Measure"] {
+        let node = harness.query_all_by_role_and_label(Role::Button, tab).next().expect(tab);
+        assert!(node.accesskit_node().is_disabled(), "{tab}");
+    }
+    press(&mut harness, "Prepare");
     // By its key from another.
     press(&mut harness, "Compare");
     harness.key_press(Key::V);
@@ -139,4 +146,34 @@ fn whatever_the_width_every_button_of_the_bar_is_in_the_window_or_in_the_menu() 
             assert!(rect.right() <= width, "{rect:?} at {width}");
         }
     }
+}
+
+#[test]
+fn a_large_window_has_larger_letters_and_a_smaller_one_has_not() {
+    let (mut harness, _) = app(DESKTOP);
+    settle(&mut harness);
+    let zoom = |harness: &App| harness.ctx.zoom_factor();
+    assert_eq!(zoom(&harness), 1.0);
+    let resize = |harness: &mut App, width: f32| {
+        // In points as they are drawn.
+        harness.set_size(egui::vec2(width, 900.0) / harness.ctx.zoom_factor());
+        harness.run_steps(4);
+    };
+    resize(&mut harness, 1920.0);
+    let grown = zoom(&harness);
+    assert!(grown > 1.05 && grown < 1.3, "{grown}");
+    // Whoever presents meanwhile, in the one or the other, leaves what suits the window.
+    for (while_presenting, after) in [(1280.0, 1.0), (1920.0, grown)] {
+        harness.key_press(Key::P);
+        harness.run_steps(4);
+        resize(&mut harness, while_presenting);
+        harness.key_press(Key::P);
+        harness.run_steps(4);
+        assert!((zoom(&harness) - after).abs() < 1e-3, "{} of {after}", zoom(&harness));
+    }
+    // A zoom of the user's own stays.
+    harness.ctx.set_zoom_factor(1.5);
+    harness.run_steps(4);
+    resize(&mut harness, 1280.0);
+    assert_eq!(zoom(&harness), 1.5);
 }
