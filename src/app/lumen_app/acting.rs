@@ -153,7 +153,8 @@ impl LumenApp {
         // What was shown of it before is not the last.
         ctx.request_repaint();
         let needs_level = matches!(action, Action::ToggleTrial | Action::Trial(trial::Action::Start) | Action::Compare);
-        let cancels_playing = action == Action::Cancel && self.panels.playback.is_playing() && !self.state.awaits();
+        let cancels_playing =
+            action == Action::Cancel && self.panels.playback.is_playing() && self.state.opening().is_none();
         if needs_level || cancels_playing {
             // Not that of an instant of what is played.
             self.panels.playback.close(&mut self.state);

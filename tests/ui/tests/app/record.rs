@@ -235,48 +235,47 @@ fn the_reduction_is_played_there_and_back_and_saved_as_a_moving_picture() {
 
 #[test]
 fn what_is_played_gives_back_the_reduction_before_whatever_ends_it() {
-    for target in [Target::Auto, Target::Deviation(200)] {
-        for end in ["trial", "comparison", "lesson", "cancel", "close"] {
-            let (mut harness, memory) = app_at(DESKTOP, 0.05);
-            settle_wholly(&mut harness);
-            let settings = Settings { target, ..harness.state().state().settings.clone() };
-            let bytes = write_settings(&SharedSettings { unit: None, settings }).into_bytes();
-            memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "set.json".to_owned(), bytes });
-            harness.run_steps(8);
-            settle_wholly(&mut harness);
-            let shown = |harness: &Harness<'_, LumenApp>| {
-                harness.state().state().document.as_ref().unwrap().shown.as_ref().unwrap().level.triangles.len()
-            };
-            let before = (harness.state().state().settings.clone(), shown(&harness));
-            click(&mut harness, "Learn");
-            harness.get_by_role_and_label(Role::CheckBox, "Play the reduction").click();
-            // So slowly that the engine is at work.
-            memory.borrow_mut().slice = std::time::Duration::from_millis(1);
-            harness.run_steps(60);
-            assert_ne!(harness.state().state().settings, before.0);
-            match end {
-                "trial" => harness.get_by_role_and_label(Role::Button, "Trial").click(),
-                "comparison" => harness.key_press(Key::C),
-                "lesson" => {
-                    click(&mut harness, "Learn");
-                    harness.get_by_role_and_label(Role::Button, "Pass band").click();
-                    harness.run_steps(3);
-                    click(&mut harness, "Close lesson");
-                }
-                "cancel" => harness.get_by_role_and_label(Role::Button, "Cancel").click(),
-                _ => harness.get_by_role_and_label(Role::Button, "Close").click(),
+    let ends = ["trial", "comparison", "lesson", "cancel", "close"].map(|end| (Target::Auto, end));
+    for (target, end) in ends.into_iter().chain([(Target::Deviation(200), "close")]) {
+        let (mut harness, memory) = app_at(DESKTOP, 0.05);
+        settle_wholly(&mut harness);
+        let settings = Settings { target, ..harness.state().state().settings.clone() };
+        let bytes = write_settings(&SharedSettings { unit: None, settings }).into_bytes();
+        memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "set.json".to_owned(), bytes });
+        harness.run_steps(8);
+        settle_wholly(&mut harness);
+        let shown = |harness: &Harness<'_, LumenApp>| {
+            harness.state().state().document.as_ref().unwrap().shown.as_ref().unwrap().level.triangles.len()
+        };
+        let before = (harness.state().state().settings.clone(), shown(&harness));
+        click(&mut harness, "Learn");
+        harness.get_by_role_and_label(Role::CheckBox, "Play the reduction").click();
+        // So slowly that the engine is at work.
+        memory.borrow_mut().slice = std::time::Duration::from_millis(1);
+        harness.run_steps(60);
+        assert_ne!(harness.state().state().settings, before.0);
+        match end {
+            "trial" => harness.get_by_role_and_label(Role::Button, "Trial").click(),
+            "comparison" => harness.key_press(Key::C),
+            "lesson" => {
+                click(&mut harness, "Learn");
+                harness.get_by_role_and_label(Role::Button, "Pass band").click();
+                harness.run_steps(3);
+                click(&mut harness, "Close lesson");
             }
-            harness.run_steps(4);
-            memory.borrow_mut().slice = std::time::Duration::from_millis(50);
-            assert!(!says(&harness, "Save (APNG)"), "{end}");
-            assert_eq!(harness.state().state().settings, before.0, "{end}");
-            if end == "trial" {
-                harness.get_by_role_and_label(Role::Button, "Prepare").click();
-                harness.run_steps(4);
-            }
-            settle(&mut harness);
-            assert_eq!((harness.state().state().settings.clone(), shown(&harness)), before, "{end}");
+            "cancel" => harness.get_by_role_and_label(Role::Button, "Cancel").click(),
+            _ => harness.get_by_role_and_label(Role::Button, "Close").click(),
         }
+        harness.run_steps(4);
+        memory.borrow_mut().slice = std::time::Duration::from_millis(50);
+        assert!(!says(&harness, "Save (APNG)"), "{end}");
+        assert_eq!(harness.state().state().settings, before.0, "{end}");
+        if end == "trial" {
+            harness.get_by_role_and_label(Role::Button, "Prepare").click();
+            harness.run_steps(4);
+        }
+        settle(&mut harness);
+        assert_eq!((harness.state().state().settings.clone(), shown(&harness)), before, "{end}");
     }
 }
 
