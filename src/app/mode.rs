@@ -2,8 +2,8 @@
 //!
 //! One [`Mode`] at a time has the window. A scan covers a trial, a trial covers the comparison, and each of them covers the
 //! method. A surface that has no level yet covers all but a scan. What is covered keeps its state and is shown again when what
-//! covers it is left; a tab of the bar leaves the other tabs. Beside the views of the method stands at most one of [`Beside`]. Collapses and a lesson combine with all
-//! of these.
+//! covers it is left; a tab of the bar leaves the other tabs. Beside the views of the method stands at most one of
+//! [`Beside`]. Collapses, the reduction that is played and a lesson combine with these.
 //!
 //! Each mode and panel is a [`Panel`] in its own folder, with its state and its actions. Bar, keys, Escape and layout go
 //! through the list of panels (`Panels::all`) and name none of them.

@@ -23,6 +23,7 @@ struct Pressed {
 /// Whether someone presents, and what was pressed last.
 #[derive(Default)]
 pub(super) struct Presenter {
+    /// Whether someone presents.
     is_on: bool,
     pressed: Vec<Pressed>,
 }

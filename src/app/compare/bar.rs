@@ -118,23 +118,12 @@ pub(super) fn slow(comparison: &Comparison) -> String {
     if comparison.cells().iter().any(is_large) { say!("compare-slow", count = MANY) } else { String::new() }
 }
 
-/// What all cells share, and what stands in every picture.
+/// What all cells share; on a phone, whose bar has no room for it, that it is not for clinical decisions.
 pub(super) fn footer(ui: &mut Ui, document: &str, shared: &str, slow: &str, is_narrow: bool) {
     let text = [document, shared, slow].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("  ·  ");
-    let layout = if is_narrow {
-        egui::Layout::top_down(egui::Align::LEFT)
-    } else {
-        egui::Layout::right_to_left(egui::Align::Center)
-    };
-    ui.with_layout(layout, |ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
-        if is_narrow {
-            ui.add(egui::Label::new(RichText::new(&text).small().weak()).truncate()).on_hover_text(text.clone());
-            ui.label(RichText::new(say!("about-not-clinical")).small().weak());
-        } else {
-            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                ui.add(egui::Label::new(RichText::new(&text).small().weak()).truncate()).on_hover_text(text.clone());
-            });
-        }
-    });
+    ui.spacing_mut().item_spacing.y = 0.0;
+    ui.add(egui::Label::new(RichText::new(&text).small().weak()).truncate()).on_hover_text(text.clone());
+    if is_narrow {
+        ui.label(RichText::new(say!("about-not-clinical")).small().weak());
+    }
 }

@@ -58,16 +58,23 @@ impl LumenApp {
         let feet = self.placed(ui, mode, |place| matches!(place, Place::Foot(_) | Place::Side(..)));
         for (index, place) in &feet {
             let card = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
-            let frame = |id| match place.clone() {
+            match place.clone() {
                 // Not under the name of the foot: its size is another.
                 Place::Side(width, range) => {
-                    let id = egui::Id::unique((id, "side"));
-                    Panel::right(id).resizable(true).default_size(width).size_range(range)
+                    let frame = |id| Panel::right(egui::Id::unique((id, "side"))).resizable(true).default_size(width);
+                    self.show_panel(ui, *index, mode, |id| frame(id).size_range(range).frame(card), &mut asked);
                 }
-                Place::Foot(height) => Panel::bottom(id).exact_size(height),
-                Place::Panel | Place::Right(..) | Place::Below(..) => Panel::bottom(id),
-            };
-            self.show_panel(ui, *index, mode, |id| frame(id).frame(card), &mut asked);
+                Place::Foot(height) => {
+                    self.show_panel(
+                        ui,
+                        *index,
+                        mode,
+                        |id| Panel::bottom(id).exact_size(height).frame(card),
+                        &mut asked,
+                    );
+                }
+                Place::Panel | Place::Right(..) | Place::Below(..) => {}
+            }
         }
         let takes_panel = self.placed(ui, mode, |place| *place == Place::Panel).pop().map(|(index, _)| index);
         let takes_panel = takes_panel.filter(|_| mode == Mode::Method);

@@ -25,7 +25,6 @@ use crate::app::state::State;
 use crate::app::views::legend;
 use crate::engine::{Command, Frame, Link};
 use crate::io::Axes;
-use crate::language::decimal;
 use crate::mesh::TriMesh;
 use crate::pipeline::settings::Keep;
 use crate::render::{Camera, Look, Picture, PictureError, Style, SurfaceError};
@@ -197,9 +196,7 @@ impl Job {
         let style = Style { map: None, labels: false, ..pose.style };
         let shot = |i: u32| {
             let steps = levels.steps_to(playback::count(&levels, f64::from(i) / f64::from(FRAMES)));
-            let count = levels.triangles_after(steps);
-            let percent = 100.0 * (1.0 - count as f64 / levels.triangles.len().max(1) as f64);
-            let title = say!("app-playback-level", percent = decimal(percent, 1), count = count);
+            let title = playback::told(&levels, levels.triangles_after(steps));
             let marks = Marks { alone: Some(Alone { title, legend: None, array: None }), ..pose.marks.clone() };
             let levels = levels.clone();
             let seat = move || {

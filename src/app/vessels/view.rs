@@ -21,6 +21,8 @@ use crate::vessel::summary::{in_order, place, summary};
 
 /// Height of what is seen at a place that is gone to, in radii of the vessel there.
 const SEEN: f32 = 16.0;
+/// Height of the plot and its words on a phone, in points.
+const PHONE: f32 = 180.0;
 /// What the plot takes of the width, where it stands beside the table.
 const PLOT: f32 = 0.42;
 
@@ -49,8 +51,8 @@ pub(super) fn show(ui: &mut Ui, shown: Vessels, now: Now<'_>, asked: &mut Vec<Ac
     if is_narrow {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ScrollArea::horizontal().show(ui, |ui| table(ui, &rows, (branch, scrolls), state, asked));
-            ui.allocate_ui(egui::vec2(ui.available_width(), 180.0), |ui| {
-                radius(ui, branch, (found, reference_mm), asked);
+            ui.allocate_ui(egui::vec2(ui.available_width(), PHONE), |ui| {
+                radius(ui, branch, (found, reference_mm), PHONE, asked);
             });
         });
         return;
@@ -61,7 +63,7 @@ pub(super) fn show(ui: &mut Ui, shown: Vessels, now: Now<'_>, asked: &mut Vec<Ac
             ScrollArea::both().auto_shrink(false).show(ui, |ui| table(ui, &rows, (branch, scrolls), state, asked));
         });
         let column = ScrollArea::vertical().id_salt("radius").max_height(height);
-        ui.vertical(|ui| column.show(ui, |ui| radius(ui, branch, (found, reference_mm), asked)));
+        ui.vertical(|ui| column.show(ui, |ui| radius(ui, branch, (found, reference_mm), height, asked)));
     });
 }
 
@@ -148,19 +150,21 @@ fn table(
     });
 }
 
+/// Shows the radius along a branch in a column of this height, or a higher one where its words leave the plot too little.
 fn radius(
     ui: &mut Ui,
     branch: &BranchCalibre,
     (found, reference_mm): (&Certificate, Option<f64>),
+    height: f32,
     asked: &mut Vec<Action>,
 ) {
-    let bottom = ui.clip_rect().bottom().min(ui.max_rect().bottom());
+    let top = ui.cursor().top();
     for stretch in branch.uneven().into_iter().flatten() {
         let told = say!("vessels-uneven", stretch = tell(&stretch.text()), reference = tell(&stretch.reference()));
         ui.add(egui::Label::new(RichText::new(told).small()).wrap());
     }
     let mut wanted = reference(ui, branch, reference_mm);
-    match plot::show(ui, branch, found.tolerance_percent, (reference_mm, bottom)) {
+    match plot::show(ui, branch, found.tolerance_percent, (reference_mm, top + height)) {
         Some(plot::Asked::Station(i)) => asked.extend(go_to_station(branch, i)),
         Some(plot::Asked::Reference(at_mm)) => wanted = Some(at_mm),
         None => {}

@@ -74,6 +74,7 @@ impl Verdict {
                 .map(|warning| Finding { is_grave: *warning == Warning::NoInside, ..Finding::note(warning.clone()) }),
         );
         findings.sort_by_key(|finding| !finding.is_grave);
+        // Nothing is said twice, and what is grave stays.
         let mut said: Vec<FindingKind> = Vec::new();
         findings.retain(|finding| {
             let is_new = !said.contains(&finding.what);
