@@ -66,8 +66,13 @@ messages! {
         "vessels-error-sheet" Sheet {
             /// Balls that overlap.
             balls: usize,
-        } => "the inside of the surface is a thin sheet and no vessel: it takes more than {balls} balls to fill it. \
-              Is it the wall of a vessel, with an inner and an outer side?",
+        } => {
+            format!(
+            "the inside of the surface is a thin sheet and no vessel: it takes more than {} balls to fill it; it may be the \
+             wall of a vessel, with an inner and an outer side",
+            grouped(balls)
+        )
+        },
     }
 }
 

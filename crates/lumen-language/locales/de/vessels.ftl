@@ -152,7 +152,7 @@ vessels-error-no-inside = { $triangles ->
     [one] Die Oberfläche hat kein Inneres: Sie ist ein einziges Dreieck
    *[other] Die Oberfläche hat kein Inneres: Von ihren { $triangles } Dreiecken liegt keines einem anderen gegenüber
 }
-vessels-error-sheet = Das Innere der Oberfläche ist eine dünne Schicht und kein Gefäß: Es braucht mehr als { $balls } Kugeln, um sie zu füllen. Ist es die Wand eines Gefäßes, mit einer inneren und einer äußeren Seite?
+vessels-error-sheet = Das Innere der Oberfläche ist eine dünne Schicht und kein Gefäß: Es braucht mehr als { $balls } Kugeln, um sie zu füllen; vielleicht ist sie die Wand eines Gefäßes, mit einer inneren und einer äußeren Seite
 vessels-error-unit = Das weiteste Gefäß misst { $diameter } mm: Die Oberfläche ist wahrscheinlich nicht in der Einheit, in der sie geöffnet wurde
 vessels-error-no-centreline = Es gibt keine Zentrallinie, zu der er senkrecht sein könnte
 vessels-error-not-closed = Die Wand ist dort um die Zentrallinie nicht geschlossen: Die Oberfläche ist in dieser Ebene offen oder gefaltet

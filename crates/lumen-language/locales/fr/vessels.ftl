@@ -155,7 +155,7 @@ vessels-error-no-inside = { $triangles ->
     [one] la surface n'a pas d'intérieur : c'est un seul triangle
    *[other] la surface n'a pas d'intérieur : de ses { $triangles } triangles, aucun ne fait face à un autre
 }
-vessels-error-sheet = l'intérieur de la surface est une couche mince et non un vaisseau : il faut plus de { $balls } boules pour le remplir. Est-ce la paroi d'un vaisseau, avec une face interne et une face externe ?
+vessels-error-sheet = l'intérieur de la surface est une couche mince et non un vaisseau : il faut plus de { $balls } boules pour le remplir ; c'est peut-être la paroi d'un vaisseau, avec une face interne et une face externe
 vessels-error-unit = le vaisseau le plus large fait { $diameter } mm : la surface n'est sans doute pas dans l'unité dans laquelle elle a été ouverte
 vessels-error-no-centreline = il n'y a pas de ligne centrale à laquelle elle serait perpendiculaire
 vessels-error-not-closed = la paroi n'y est pas fermée autour de la ligne centrale : la surface est ouverte ou repliée dans ce plan
