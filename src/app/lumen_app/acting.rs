@@ -12,7 +12,7 @@ use crate::app::sharing::Sharing;
 use crate::app::sheets::{self, Sheet};
 use crate::app::views::Spot;
 use crate::app::{lesson, measure, record, shortcuts, theme, trial, vessels};
-use crate::language::Key as Message;
+use crate::language;
 use crate::pipeline::settings::{Keep, Settings};
 use crate::say;
 
@@ -61,8 +61,8 @@ impl LumenApp {
         let is_open = !entries.iter().any(|entry| entry.group == Group::Tabs && entry.is_open);
         let prepare = Entry {
             group: Group::Tabs,
-            label: Message("app-prepare"),
-            help: Message("app-prepare-help"),
+            label: language::Key("app-prepare"),
+            help: language::Key("app-prepare-help"),
             key: None,
             action: Action::Prepare,
             is_open,
