@@ -12,7 +12,8 @@
 use std::sync::Arc;
 use std::task::Poll;
 
-use glam::{Vec3, Vec3A};
+use bytemuck::{Pod, Zeroable};
+use glam::{Vec3, Vec3A, Vec4};
 
 use super::TriMesh;
 use super::closest_point::is_sliver;
@@ -41,7 +42,8 @@ pub struct IndexBuild {
     all: Region,
     nodes: Vec<Node>,
     pending: Vec<Pending>,
-    active: Option<(Pending, Split)>,
+    active: Option<Pending>,
+    split: Box<Split>,
     leaves: Vec<Leaf>,
     /// Triangles, each of which has one item or more.
     triangles: usize,
@@ -56,17 +58,32 @@ enum Stage {
     Leaves,
 }
 
-#[derive(Debug, Clone, Copy)]
+/// A triangle's box, as two vectors of four to load at once.
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+#[repr(C, align(16))]
 struct Item {
-    min: Vec3,
-    max: Vec3,
+    min: [f32; 3],
     triangle: u32,
+    max: [f32; 3],
+    unused: u32,
 }
 
 impl Item {
+    fn new(min: Vec3, max: Vec3, triangle: u32) -> Self {
+        Self { min: min.to_array(), triangle, max: max.to_array(), unused: 0 }
+    }
+
+    #[inline]
+    fn region(&self) -> Region {
+        let [min, max] = bytemuck::cast::<Self, [Vec4; 2]>(*self).map(Vec3A::from_vec4);
+        Region { min, max }
+    }
+
     /// Twice the centre of the box.
+    #[inline]
     fn centroid(&self) -> Vec3A {
-        Vec3A::from(self.min) + Vec3A::from(self.max)
+        let Region { min, max } = self.region();
+        min + max
     }
 }
 
@@ -126,15 +143,31 @@ struct Bin {
     count: usize,
 }
 
-/// A split under way: first every item is put in its bin, then the items are parted in place.
-#[derive(Debug)]
+/// A split under way: first every item is put in its bin, then the items are parted in place. One is used again and again.
+#[derive(Debug, Default)]
 struct Split {
-    axis: usize,
-    origin: f32,
-    scale: f32,
+    by: Binning,
     bins: [Bin; BINS],
     binned: usize,
     parting: Option<Parting>,
+}
+
+/// Which bin an item goes in.
+#[derive(Debug, Default, Clone, Copy)]
+struct Binning {
+    axis: usize,
+    origin: f32,
+    scale: f32,
+    /// How many there are.
+    bins: usize,
+}
+
+impl Binning {
+    #[inline]
+    fn bin(&self, item: &Item) -> usize {
+        let centroid = item.min[self.axis] + item.max[self.axis];
+        (((centroid - self.origin) * self.scale) as usize).min(self.bins - 1)
+    }
 }
 
 #[derive(Debug)]
@@ -148,44 +181,43 @@ struct Parting {
 }
 
 impl Split {
-    fn new(range: &Range) -> Self {
+    fn begin(&mut self, range: &Range) {
         let size = range.centroids.max - range.centroids.min;
         let axis = (0..3).fold(0, |axis, i| if size[i] > size[axis] { i } else { axis });
-        let scale = if range.depth < DEEP && size[axis] > 0.0 { BINS as f32 / size[axis] } else { 0.0 };
-        let origin = range.centroids.min[axis];
-        Self { axis, origin, scale, bins: [Bin::default(); BINS], binned: range.start, parting: None }
+        // For few items the costs of planes would be most of the work.
+        let bins = (range.len() / 2).next_power_of_two().clamp(4, BINS);
+        let scale = if range.depth < DEEP && size[axis] > 0.0 { bins as f32 / size[axis] } else { 0.0 };
+        self.by = Binning { axis, origin: range.centroids.min[axis], scale, bins };
+        self.bins[..bins].fill(Bin::default());
+        (self.binned, self.parting) = (range.start, None);
     }
 
-    #[inline]
-    fn bin(&self, item: &Item) -> usize {
-        let centroid = item.min[self.axis] + item.max[self.axis];
-        (((centroid - self.origin) * self.scale) as usize).min(BINS - 1)
-    }
-
-    /// Works on up to `work` items; the two parts when they are ready.
+    /// Works on up to `work` items, and then on as many again; the two parts when they are ready.
     fn advance(&mut self, range: &Range, items: &mut [Item], work: usize) -> Option<[Range; 2]> {
-        let Some(parting) = &self.parting else {
+        let by = self.by;
+        if self.parting.is_none() {
             let end = range.end.min(self.binned.saturating_add(work));
             for item in &items[self.binned..end] {
-                let bin = &mut self.bins[self.bin(item)];
-                bin.bounds.include(item.min.into(), item.max.into());
+                let bin = &mut self.bins[by.bin(item)];
+                let Region { min, max } = item.region();
+                bin.bounds.include(min, max);
                 bin.count += 1;
             }
             self.binned = end;
             if end < range.end {
                 return None;
             }
-            let Some(plane) = self.best_plane() else {
-                return Some(halves(range, items, self.axis));
+            let Some(plane) = best_plane(&self.bins[..by.bins]) else {
+                return Some(halves(range, items, by.axis));
             };
             let centroids = [Region::default(); 2];
             self.parting = Some(Parting { plane, left: range.start, right: range.end, centroids });
-            return None;
-        };
+        }
+        let parting = self.parting.as_mut()?;
         let Parting { plane, mut left, mut right, mut centroids } = *parting;
         for _ in 0..work.min(right - left) {
             let centroid = items[left].centroid();
-            if self.bin(&items[left]) < plane {
+            if by.bin(&items[left]) < plane {
                 centroids[0].include(centroid, centroid);
                 left += 1;
             } else {
@@ -195,7 +227,7 @@ impl Split {
             }
         }
         if left < right {
-            self.parting = Some(Parting { plane, left, right, centroids });
+            *parting = Parting { plane, left, right, centroids };
             return None;
         }
         let part = |start, end, bins: &[Bin], centroids| {
@@ -204,31 +236,31 @@ impl Split {
         };
         Some([
             part(range.start, left, &self.bins[..plane], centroids[0]),
-            part(left, range.end, &self.bins[plane..], centroids[1]),
+            part(left, range.end, &self.bins[plane..by.bins], centroids[1]),
         ])
     }
+}
 
-    /// The plane of least cost with triangles on both sides.
-    fn best_plane(&self) -> Option<usize> {
-        let mut right_costs = [0.0f32; BINS];
-        let (mut region, mut count) = (Region::default(), 0);
-        for plane in (1..BINS).rev() {
-            region.include(self.bins[plane].bounds.min, self.bins[plane].bounds.max);
-            count += self.bins[plane].count;
-            right_costs[plane] = if count > 0 { region.half_area() * count as f32 } else { f32::INFINITY };
-        }
-        let (mut region, mut count) = (Region::default(), 0);
-        let mut best = (f32::INFINITY, None);
-        for (below, (bin, right_cost)) in self.bins.iter().zip(&right_costs[1..]).enumerate() {
-            region.include(bin.bounds.min, bin.bounds.max);
-            count += bin.count;
-            let cost = region.half_area() * count as f32 + right_cost;
-            if count > 0 && cost < best.0 {
-                best = (cost, Some(below + 1));
-            }
-        }
-        best.1
+/// The plane of least cost with triangles on both sides.
+fn best_plane(bins: &[Bin]) -> Option<usize> {
+    let mut right_costs = [0.0f32; BINS];
+    let (mut region, mut count) = (Region::default(), 0);
+    for plane in (1..bins.len()).rev() {
+        region.include(bins[plane].bounds.min, bins[plane].bounds.max);
+        count += bins[plane].count;
+        right_costs[plane] = if count > 0 { region.half_area() * count as f32 } else { f32::INFINITY };
     }
+    let (mut region, mut count) = (Region::default(), 0);
+    let mut best = (f32::INFINITY, None);
+    for (below, (bin, right_cost)) in bins.iter().zip(&right_costs[1..bins.len()]).enumerate() {
+        region.include(bin.bounds.min, bin.bounds.max);
+        count += bin.count;
+        let cost = region.half_area() * count as f32 + right_cost;
+        if count > 0 && cost < best.0 {
+            best = (cost, Some(below + 1));
+        }
+    }
+    best.1
 }
 
 fn union(regions: impl Iterator<Item = Region>) -> Region {
@@ -246,7 +278,7 @@ fn halves(range: &Range, items: &mut [Item], axis: usize) -> [Range; 2] {
         .select_nth_unstable_by(range.len() / 2, |a, b| key(a).total_cmp(&key(b)).then(a.triangle.cmp(&b.triangle)));
     [(range.start, middle), (middle, range.end)].map(|(start, end)| {
         let part = &items[start..end];
-        let bounds = union(part.iter().map(|item| Region { min: item.min.into(), max: item.max.into() }));
+        let bounds = union(part.iter().map(Item::region));
         let centroids = union(part.iter().map(|item| Region { min: item.centroid(), max: item.centroid() }));
         Range { start, end, depth: range.depth + 1, bounds, centroids }
     })
@@ -341,7 +373,7 @@ impl IndexBuild {
             if a.is_finite() && b.is_finite() && c.is_finite() {
                 self.triangles += 1;
                 boxes([a, b, c], triangles.len(), |min, max| {
-                    let item = Item { min, max, triangle: (self.next + offset) as u32 };
+                    let item = Item::new(min, max, (self.next + offset) as u32);
                     let centroid = item.centroid();
                     self.all.include(centroid, centroid);
                     self.items.push(item);
@@ -365,7 +397,7 @@ impl IndexBuild {
         }
         self.nodes.push(Node::EMPTY);
         if count <= LEAF {
-            let bounds = union(self.items.iter().map(|item| Region { min: item.min.into(), max: item.max.into() }));
+            let bounds = union(self.items.iter().map(Item::region));
             self.nodes[0].add(bounds.min.into(), bounds.max.into(), 0, count as u8);
             return;
         }
@@ -376,10 +408,13 @@ impl IndexBuild {
     }
 
     fn split(&mut self, work: usize) -> usize {
-        let (pending, mut split) = match self.active.take() {
+        let pending = match self.active.take() {
             Some(active) => active,
             None => match self.pending.pop() {
-                Some(pending) => (pending, Split::new(&pending.range)),
+                Some(pending) => {
+                    self.split.begin(&pending.range);
+                    pending
+                }
                 None => {
                     self.stage = Stage::Leaves;
                     return 0;
@@ -387,8 +422,8 @@ impl IndexBuild {
             },
         };
         let used = work.min(pending.range.len()) + SPLIT_COST;
-        match split.advance(&pending.range, &mut self.items, work) {
-            None => self.active = Some((pending, split)),
+        match self.split.advance(&pending.range, &mut self.items, work) {
+            None => self.active = Some(pending),
             Some(parts) => parts.into_iter().for_each(|range| self.place(range, &pending)),
         }
         used

@@ -205,6 +205,20 @@ impl SurfaceIndex {
         bounded(distance).is_some_and(|bound| self.search(p, bound, bound.projection.squared).slot != Best::NO_SLOT)
     }
 
+    /// The same answer as [`Self::is_within`], found sooner when `p` is near an earlier query: `last` says where that
+    /// ended, and then where this one did. It may begin with any number.
+    pub fn is_within_from(&self, p: Vec3, distance: f32, last: &mut u32) -> bool {
+        let Some(bound) = bounded(distance) else { return false };
+        let enough = bound.projection.squared;
+        let is_there = |leaf: &Leaf| leaf.project_point(p).squared <= enough;
+        if self.leaves.get(*last as usize).is_some_and(is_there) {
+            return true;
+        }
+        let found = self.search(p, bound, enough).slot;
+        *last = found;
+        found != Best::NO_SLOT
+    }
+
     /// Lowers `best` to the nearest triangle, or stops at one whose squared distance is at most `enough`.
     fn search(&self, p: Vec3, mut best: Best, enough: f64) -> Best {
         if self.nodes.is_empty() || !p.is_finite() {
@@ -352,14 +366,17 @@ mod tests {
     #[test]
     fn hints_and_bounds_change_nothing() {
         let index = index(&icosphere(3, 10.0, Vec3::ZERO));
-        let mut last = index.nearest(Vec3::X).unwrap();
+        let (mut last, mut at) = (index.nearest(Vec3::X).unwrap(), u32::MAX);
         for p in cloud(3000, 15.0) {
             let plain = index.nearest(p).unwrap();
             last = index.nearest_from(p, &last).unwrap();
             assert_eq!(last, plain);
             assert_eq!(index.nearest_within(p, plain.distance * 1.001), Some(plain));
             assert_eq!(index.nearest_within(p, plain.distance * 0.999), None);
-            assert!(index.is_within(p, plain.distance * 1.001) && !index.is_within(p, plain.distance * 0.999));
+            for (part, is_near) in [(1.001, true), (0.999, false)] {
+                assert_eq!(index.is_within(p, plain.distance * part), is_near);
+                assert_eq!(index.is_within_from(p, plain.distance * part, &mut at), is_near);
+            }
         }
         let other = SurfaceIndex::new(&[Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]]);
         assert_eq!(other.nearest_from(Vec3::Z, &last), other.nearest(Vec3::Z));

@@ -20,24 +20,20 @@ use super::progressive::MADE;
 use super::task::{Yielder, blocks};
 use lumen_mesh::arrays::Association;
 use lumen_mesh::parallel;
-use lumen_mesh::{Array, Blend, Nearest, SurfaceIndex, Topology, TriMesh, Vec3, blended, triangle_area, used_vertices};
+use lumen_mesh::{Array, Blend, Nearest, SurfaceIndex, TriMesh, Vec3, blended, triangle_area, used_vertices};
 
 /// Closest points between two looks at the clock, and of one thread.
 const SLICE: usize = 16_384;
 const CHUNK: usize = 2_048;
 
-/// The surface that entered decimation, as its own triangles are numbered and as those of the progressive mesh are.
+/// The surface that entered decimation.
 #[derive(Clone, Debug)]
 pub struct Entered {
     /// Its arrays, for the vertices and triangles of `mesh`.
     pub arrays: Arc<Vec<Array>>,
     /// The surface.
     pub mesh: Arc<TriMesh>,
-    /// Adjacency of its triangles.
-    pub topology: Arc<Topology>,
-    /// The same surface over the nodes of the progressive mesh.
-    pub finest: Arc<TriMesh>,
-    /// An index of `finest`.
+    /// An index of `mesh`.
     pub index: Arc<SurfaceIndex>,
     /// For each node the vertex of `mesh` that it is, [`MADE`] where it is none.
     pub vertex_of_node: Arc<[u32]>,
@@ -100,9 +96,9 @@ impl Carrying<'_> {
             if own != MADE {
                 self.vertices.push(own, 1.0);
             } else if let Some(found) = found {
-                let corners = self.from.finest.triangles[found.triangle as usize];
-                for (node, weight) in corners.into_iter().zip(found.barycentric) {
-                    self.vertices.push(vertex_of_node[node as usize], weight);
+                let corners = self.from.mesh.triangles[found.triangle as usize];
+                for (vertex, weight) in corners.into_iter().zip(found.barycentric) {
+                    self.vertices.push(vertex, weight);
                 }
             }
             self.vertices.finish_row();
@@ -126,8 +122,8 @@ impl Carrying<'_> {
         for t in 0..given.len() {
             match given.sources(t) {
                 [] => {
-                    if let Some(source) = self.below(centroid(self.level.corners(t))) {
-                        blend.push(source, 1.0);
+                    if let Some(found) = self.from.index.nearest(centroid(self.level.corners(t))) {
+                        blend.push(found.triangle, 1.0);
                     }
                 }
                 sources => sources.iter().for_each(|&(source, weight)| blend.push(source, weight)),
@@ -137,14 +133,6 @@ impl Carrying<'_> {
         blend
     }
 
-    /// The triangle of the surface that entered which is closest to a point.
-    fn below(&self, p: Vec3) -> Option<u32> {
-        let Entered { index, finest, topology, mesh, vertex_of_node, .. } = self.from;
-        let found = index.nearest(p)?;
-        let corners = finest.triangles[found.triangle as usize].map(|node| vertex_of_node[node as usize]);
-        let is_it = |&&t: &&u32| corners.iter().all(|v| mesh.triangles[t as usize].contains(v));
-        topology.triangles(corners[0]).iter().find(is_it).copied()
-    }
 }
 
 /// The closest points to the points that `query` names with an index; none where it names none.

@@ -73,8 +73,6 @@ impl Results {
 #[derive(Clone, Debug)]
 pub(super) struct Levels {
     pub(super) progressive: Arc<ProgressiveMesh>,
-    /// The smoothed surface over the nodes of the progressive mesh.
-    pub(super) finest: Arc<TriMesh>,
     /// For each node the vertex that it was, where there are arrays to carry.
     pub(super) vertex_of_node: Arc<[u32]>,
 }
@@ -83,26 +81,26 @@ pub(super) struct Levels {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Indices {
     pub(super) kept: Option<Arc<SurfaceIndex>>,
-    pub(super) finest: Option<Arc<SurfaceIndex>>,
+    pub(super) smoothed: Option<Arc<SurfaceIndex>>,
     /// Of the level, from its deviation to its measures.
     pub(super) level: Option<Arc<SurfaceIndex>>,
 }
 
-/// Triangles of the finest level up to which its index is kept from one level to the next: 63 bytes for each, and 16 more with
+/// Triangles of the smoothed surface up to which its index is kept from one level to the next: 63 bytes for each, and 16 more with
 /// its planes. In the four gigabytes that a page's program can have, those of ten million left no room for the finding of the
 /// vessels (`tests/browser/large.test.mjs`); everything else grows by the triangles as well, so that four million have room.
 const KEPT_INDEX: usize = if usize::BITS < 64 { 4_000_000 } else { usize::MAX };
 
 impl Indices {
-    /// A level of `finest` triangles at its finest is measured: what only it has asked for is given up.
-    pub(super) fn release(&mut self, finest: usize) {
-        self.let_go_beyond(finest, KEPT_INDEX);
+    /// A level of a surface of `triangles` is measured: what only it has asked for is given up.
+    pub(super) fn release(&mut self, triangles: usize) {
+        self.let_go_beyond(triangles, KEPT_INDEX);
     }
 
-    fn let_go_beyond(&mut self, finest: usize, most: usize) {
+    fn let_go_beyond(&mut self, triangles: usize, most: usize) {
         self.level = None;
-        if finest > most {
-            self.finest = None;
+        if triangles > most {
+            self.smoothed = None;
         }
     }
 }
@@ -257,13 +255,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_index_of_a_large_finest_level_is_given_up_and_that_of_the_opened_surface_stays() {
+    fn the_index_of_a_large_smoothed_surface_is_given_up_and_that_of_the_opened_surface_stays() {
         let some = || Some(Arc::new(SurfaceIndex::default()));
-        for (finest, is_kept) in [(1000, true), (1001, false)] {
-            let mut indices = Indices { kept: some(), finest: some(), level: some() };
-            indices.let_go_beyond(finest, 1000);
-            let has = [&indices.kept, &indices.finest, &indices.level].map(Option::is_some);
-            assert_eq!(has, [true, is_kept, false], "{finest}");
+        for (triangles, is_kept) in [(1000, true), (1001, false)] {
+            let mut indices = Indices { kept: some(), smoothed: some(), level: some() };
+            indices.let_go_beyond(triangles, 1000);
+            let has = [&indices.kept, &indices.smoothed, &indices.level].map(Option::is_some);
+            assert_eq!(has, [true, is_kept, false], "{triangles}");
         }
     }
 

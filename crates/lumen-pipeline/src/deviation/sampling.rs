@@ -1,5 +1,5 @@
-//! Points spread evenly over a surface: sample `i` of `n` lies in the `i`-th of `n` equal parts of the area, in the order
-//! of the triangles, and its place there comes from a hash of `i`.
+//! Points spread evenly over a surface: sample `i` of `n` lies in the `i`-th of `n` equal parts of the area, in an order
+//! of its triangles, and its place there comes from a hash of `i`.
 
 use glam::Vec3;
 
@@ -14,20 +14,24 @@ const UNITS: usize = 8192;
 #[derive(Debug)]
 pub(super) struct Side<'a> {
     pub(super) mesh: &'a TriMesh,
-    /// Area of the triangles up to and with each, in mm2.
+    /// Triangles in the order in which samples go through them.
+    order: Vec<u32>,
+    /// Area of those up to and with each of the order, in mm2.
     areas: Vec<f64>,
     /// Vertices that a triangle uses.
     pub(super) used: Vec<bool>,
 }
 
 impl<'a> Side<'a> {
-    pub(super) async fn new(mesh: &'a TriMesh, yielder: &Yielder) -> Self {
-        let count = mesh.triangles.len();
+    pub(super) async fn new(mesh: &'a TriMesh, order: impl Iterator<Item = u32>, yielder: &Yielder) -> Self {
+        let order: Vec<u32> = order.collect();
+        let count = order.len();
         let (mut areas, mut used) = (Vec::with_capacity(count), vec![false; mesh.positions.len()]);
         let mut total = 0.0;
         for block in blocks(count, UNITS) {
             let end = block.end;
-            for t in block {
+            for &t in &order[block] {
+                let t = t as usize;
                 let area = triangle_area(mesh.corners(t));
                 if area.is_finite() {
                     total += area;
@@ -39,7 +43,7 @@ impl<'a> Side<'a> {
             }
             yielder.rest(end as f32 / count as f32).await;
         }
-        Self { mesh, areas, used }
+        Self { mesh, order, areas, used }
     }
 
     /// Whether it has any area: without, there are no samples, and nothing is near to it.
@@ -84,13 +88,13 @@ impl Sampler<'_> {
             while t + 1 < areas.len() && areas[t] <= target {
                 t += 1;
             }
-            let triangle = t.min(areas.len() - 1);
-            let [a, b, c] = self.side.mesh.corners(triangle).map(Vec3::as_dvec3);
+            let triangle = self.side.order[t.min(areas.len() - 1)];
+            let [a, b, c] = self.side.mesh.corners(triangle as usize).map(Vec3::as_dvec3);
             // The square root makes the density even (Osada, Funkhouser, Chazelle and Dobkin 2002, section 3.2).
             let (root, along) = (unit(self.stream, i, 1).sqrt(), unit(self.stream, i, 2));
             let weights = [1.0 - root, root * (1.0 - along), root * along];
             let point = (a * weights[0] + b * weights[1] + c * weights[2]).as_vec3();
-            Sample { point, triangle: triangle as u32, weights: weights.map(|weight| weight as f32) }
+            Sample { point, triangle, weights: weights.map(|weight| weight as f32) }
         })
     }
 }
@@ -110,7 +114,7 @@ mod tests {
         // Triangles of very different size; each gets its share of the samples to within one at either end.
         let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(-9.0, 0.0, 0.0), Vec3::new(0.0, -90.0, 0.0)];
         let mesh = TriMesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]] };
-        let side = at_once(Side::new(&mesh, &Yielder::never()));
+        let side = at_once(Side::new(&mesh, [2, 0, 1].into_iter(), &Yielder::never()));
         let sampler = Sampler { side: &side, count: 8200, stream: 1 };
         let points: Vec<Vec3> = sampler.samples(0, 8200).map(|sample| sample.point).collect();
         let large = points.iter().filter(|p| p.y < 0.0).count();

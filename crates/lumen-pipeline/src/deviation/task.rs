@@ -54,17 +54,15 @@ pub struct Compared {
 pub async fn compare(a: &TriMesh, b: &TriMesh, how: Comparing, yielder: &Yielder) -> Compared {
     let Comparing { samples, with_map, index_of_a } = how;
     let samples = samples.max(1);
-    let [areas_a, areas_b, of_b, vertices_a, samples_a, of_a, samples_b, vertices_b, map] =
+    let [of_b, areas_a, areas_b, vertices_a, samples_a, of_a, samples_b, vertices_b, map] =
         parts(a, b, samples, index_of_a.is_some()).map(|part| yielder.part(part));
-    let a = Side::new(a, &areas_a).await;
-    if !a.has_area() {
+    let index_of_b = SurfaceIndex::known_or_built(None, b, &of_b).await;
+    let a = Side::new(a, 0..a.triangles.len() as u32, &areas_a).await;
+    // A level's triangles stand in the order in which they go: the tree has those together that lie together.
+    let b = Side::new(b, index_of_b.triangles(), &areas_b).await;
+    if !(a.has_area() && b.has_area()) {
         return Compared { comparison: None, indices: [index_of_a, None] };
     }
-    let b = Side::new(b, &areas_b).await;
-    if !b.has_area() {
-        return Compared { comparison: None, indices: [index_of_a, None] };
-    }
-    let index_of_b = SurfaceIndex::known_or_built(None, b.mesh, &of_b).await;
     let mut measured = Measured { samples, map: with_map.then(DistanceMap::new), ..Measured::default() };
     // Vertices count where they are farther than all before.
     measured.vertices([&a, &b], 0, &index_of_b, &vertices_a).await;
@@ -86,9 +84,9 @@ fn parts(a: &TriMesh, b: &TriMesh, samples: usize, has_index: bool) -> [std::ops
     let [triangles_a, triangles_b] = [a, b].map(|mesh| mesh.triangles.len());
     let [vertices_a, vertices_b] = [a, b].map(|mesh| mesh.positions.len());
     let costs = [
+        250 * triangles_b,
         10 * triangles_a,
         10 * triangles_b,
-        250 * triangles_b,
         200 * vertices_a,
         700 * samples,
         if has_index { 0 } else { 250 * triangles_a },
@@ -124,10 +122,10 @@ impl Measured {
         for block in blocks(count, QUERIES * parallel::threads()) {
             let (first, end, sofar) = (block.start, block.end, self.farthest.distance);
             let pieces = parallel::map_ranges(block.len(), QUERIES, |piece| {
-                let mut queries = Queries::new(other, side);
+                let (mut queries, mut last) = (Queries::new(other, side), u32::MAX);
                 let piece = first + piece.start..first + piece.end;
                 for (&p, &used) in mesh.positions[piece.clone()].iter().zip(&used[piece]) {
-                    if used && !other.is_within(p, sofar) {
+                    if used && !other.is_within_from(p, sofar, &mut last) {
                         queries.measure(p);
                     }
                 }

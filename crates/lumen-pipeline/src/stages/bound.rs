@@ -1,10 +1,9 @@
 //! The search for the level within a bound on the deviation, as a stage.
 
-use super::{Row, Run};
+use super::{Row, Run, SmoothedIndex};
 use crate::bound::bound_in_slices;
 use crate::stage::Stage;
 use crate::store::Store;
-use lumen_mesh::SurfaceIndex;
 
 pub(super) const ROW: Row = Row {
     needs: &[Stage::Decimation],
@@ -21,14 +20,14 @@ pub(super) const ROW: Row = Row {
 };
 
 fn start(store: &Store) -> Option<Run> {
-    let levels = store.now.levels.clone()?;
+    let (levels, smoothed) = (store.now.levels.clone()?, store.now.smoothed.clone()?);
     let bound_mm = store.now.settings.target.deviation_mm()?;
-    let index = store.now.indices.finest.clone();
+    let index = SmoothedIndex::known(store);
     Some(Run::new(move |yielder, outbox| async move {
-        let index = SurfaceIndex::known_or_built(index, &levels.finest, &yielder.part(0.0..0.0)).await;
-        let bound = bound_in_slices(&levels.progressive, &levels.finest, &index, bound_mm, &yielder).await;
+        let index = index.get(&smoothed.mesh, &yielder.part(0.0..0.0)).await;
+        let bound = bound_in_slices(&levels.progressive, &smoothed.mesh, &index, bound_mm, &yielder).await;
         outbox.leave(move |store| {
-            store.now.indices.finest = Some(index);
+            store.now.indices.smoothed = Some(index);
             store.now.bound = Some(bound);
         });
     }))

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Row, Run};
+use super::{Row, Run, SmoothedIndex};
 use crate::carry::{Entered, carry};
 use crate::stage::{Stage, Wanted};
 use crate::store::Store;
@@ -30,19 +30,17 @@ fn start(store: &Store) -> Option<Run> {
         ));
     }
     let arrays = kept_arrays(store)?;
-    let (of_finest, of_level) = (now.indices.finest.clone(), now.indices.level.clone());
+    let (of_smoothed, of_level) = (SmoothedIndex::known(store), now.indices.level.clone());
     Some(Run::new(|yielder, outbox| async move {
         let left = (kept.clone(), arrays.clone());
         outbox.leave(|store| store.kept_arrays = Some(left));
         // The deviation has built both, but where one of the surfaces has no area.
-        let of_finest = SurfaceIndex::known_or_built(of_finest, &levels.finest, &yielder.part(0.0..0.05)).await;
+        let of_smoothed = of_smoothed.get(&smoothed.mesh, &yielder.part(0.0..0.05)).await;
         let of_level = SurfaceIndex::known_or_built(of_level, &reduced.mesh, &yielder.part(0.05..0.1)).await;
         let from = Entered {
             arrays,
             mesh: smoothed.mesh.clone(),
-            topology: kept.topology.clone(),
-            finest: levels.finest,
-            index: of_finest,
+            index: of_smoothed,
             vertex_of_node: levels.vertex_of_node,
         };
         let (triangles, part) = (&reduced.level.triangles, yielder.part(0.1..1.0));

@@ -1,4 +1,4 @@
-//! Decimation as a stage: all levels, and the smoothed surface in their numbering.
+//! Decimation as a stage: all levels.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ pub(super) const ROW: Row = Row {
     is_wanted: |_, _| true,
     is_background: false,
     has: |now| now.levels.is_some(),
-    clear: |now| (now.levels, now.indices.finest) = (None, None),
+    clear: |now| now.levels = None,
     time: |times| &mut times.decimation,
     start,
 };
@@ -52,9 +52,8 @@ fn start(store: &Store) -> Option<Run> {
         let Decimated { progressive, vertex_of_node } =
             decimate_in_slices(&smoothed.mesh, &kept.topology, &settings, holds, &part).await;
         yielder.rest(1.0).await;
-        let finest = Arc::new(progressive.finest());
         let vertex_of_node = if needs_vertices { vertex_of_node } else { Vec::new() }.into();
-        let levels = Levels { progressive: Arc::new(progressive), finest, vertex_of_node };
+        let levels = Levels { progressive: Arc::new(progressive), vertex_of_node };
         outbox.leave(|store| store.now.levels = Some(levels));
     }))
 }

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Row, Run};
+use super::{Row, Run, SmoothedIndex};
 use crate::deviation::{Comparing, Comparison, compare};
 use crate::progressive::ProgressiveMesh;
 use crate::results::{Deviations, Reduced};
@@ -24,19 +24,21 @@ pub(super) const ROW: Row = Row {
 fn start(store: &Store) -> Option<Run> {
     let now = &store.now;
     let (kept, levels, reduced) = (now.kept.clone()?, now.levels.clone()?, now.reduced.clone()?);
-    let (of_finest, of_kept) = (now.indices.finest.clone(), now.indices.kept.clone());
+    let smoothed = now.smoothed.clone()?;
+    let (of_smoothed, of_kept) = (SmoothedIndex::known(store), now.indices.kept.clone());
     let samples = store.samples;
     Some(Run::new(move |yielder, outbox| async move {
         let comparing = |index_of_a| Comparing { samples, with_map: true, index_of_a };
-        let part = yielder.part(0.0..0.5);
-        let smoothed = compare(&levels.finest, &reduced.mesh, comparing(of_finest), &part).await;
+        let of_smoothed = of_smoothed.get(&smoothed.mesh, &yielder.part(0.0..0.05)).await;
+        let part = yielder.part(0.05..0.5);
+        let smoothed = compare(&smoothed.mesh, &reduced.mesh, comparing(Some(of_smoothed)), &part).await;
         let part = yielder.part(0.5..1.0);
         let original = compare(&kept.mesh, &reduced.mesh, comparing(of_kept), &part).await;
         let by_node = by_node(&levels.progressive, &reduced, smoothed.comparison.as_ref());
         let deviations = Deviations { from_smoothed: smoothed.comparison, from_original: original.comparison, by_node };
         outbox.leave(|store| {
             let indices = &mut store.now.indices;
-            [indices.finest, indices.level] = smoothed.indices;
+            [indices.smoothed, indices.level] = smoothed.indices;
             [indices.kept, _] = original.indices;
             store.now.deviations = Some(Arc::new(deviations));
         });

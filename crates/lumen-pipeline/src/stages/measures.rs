@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::{Row, Run};
+use super::{Row, Run, SmoothedIndex};
 use crate::pinch::first_pinch_of;
 use crate::results::{LevelMeasures, SmoothedMeasures};
 use crate::settings::Target;
@@ -32,11 +32,12 @@ pub(super) const OF_SMOOTHED: Row = Row {
 fn start_smoothed(store: &Store) -> Option<Run> {
     let now = &store.now;
     let (kept, smoothed, levels) = (now.kept.clone()?, now.smoothed.clone()?, now.levels.clone()?);
-    let index = now.indices.finest.clone().map(|index| (levels.finest.clone(), index));
-    let known = Known { index, crosses_nothing: smoothed.crosses_nothing };
+    let index = SmoothedIndex::known(store);
     Some(Run::new(|yielder, outbox| async move {
         let yielder = yielder.part(0.0..SMOOTHED);
         let (mesh, topology) = (&smoothed.mesh, &kept.topology);
+        let index = index.get(mesh, &yielder.part(0.0..0.0)).await;
+        let known = Known { index: Some(index), crosses_nothing: smoothed.crosses_nothing };
         let measured = shape_in_slices(mesh, topology, known, &yielder.part(0.0..0.4)).await;
         let part = yielder.part(0.4..0.5);
         let samples = samples_in_slices(mesh, topology, &measured.balls, &measured.index, &part).await;
@@ -65,9 +66,9 @@ pub(super) const OF_LEVEL: Row = Row {
 /// The samples are measured in one piece, of up to 2 microseconds each.
 fn start_level(store: &Store) -> Option<Run> {
     let now = &store.now;
-    let (reduced, levels) = (now.reduced.clone()?, now.levels.clone()?);
+    let (reduced, smoothed) = (now.reduced.clone()?, now.smoothed.clone()?);
     let samples: Arc<[Ball]> = now.smoothed_measures.as_ref()?.samples.clone();
-    let index = now.indices.level.clone().map(|index| (reduced.mesh.clone(), index));
+    let index = now.indices.level.clone();
     Some(Run::new(move |yielder, outbox| async move {
         let (mesh, topology) = (&reduced.mesh, &reduced.topology);
         let known = Known { index, crosses_nothing: false };
@@ -76,7 +77,7 @@ fn start_level(store: &Store) -> Option<Run> {
         let found = LevelMeasures { shape: measured.shape, narrowing };
         outbox.leave(move |store| {
             store.now.level_measures = Some(Arc::new(found));
-            store.now.indices.release(levels.finest.triangles.len());
+            store.now.indices.release(smoothed.mesh.triangles.len());
         });
     }))
 }

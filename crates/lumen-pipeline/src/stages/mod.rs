@@ -14,11 +14,15 @@ mod running;
 mod safe;
 mod smoothing;
 
+use std::sync::Arc;
+
 use super::results::Results;
 use super::settings::Settings;
 use super::stage::{Stage, Wanted};
 use super::store::Store;
+use super::task::Yielder;
 use super::times::StageTimes;
+use lumen_mesh::{SurfaceIndex, TriMesh, refitted};
 pub(super) use running::{Outbox, Run};
 
 /// All that is known of a stage.
@@ -58,5 +62,26 @@ pub(super) fn row(stage: Stage) -> &'static Row {
         Stage::Vessels => &calibre::VESSELS,
         Stage::Certificate => &calibre::CERTIFICATE,
         Stage::Safe => &safe::ROW,
+    }
+}
+
+/// What the index of the smoothed surface is taken or made from.
+pub(super) struct SmoothedIndex {
+    smoothed: Option<Arc<SurfaceIndex>>,
+    kept: Option<Arc<SurfaceIndex>>,
+}
+
+impl SmoothedIndex {
+    pub(super) fn known(store: &Store) -> Self {
+        let indices = &store.now.indices;
+        Self { smoothed: indices.smoothed.clone(), kept: indices.kept.clone() }
+    }
+
+    /// The index of `smoothed`: the one that is there, that of the kept surface with boxes of its own, or one built anew.
+    pub(super) async fn get(self, smoothed: &TriMesh, yielder: &Yielder) -> Arc<SurfaceIndex> {
+        match self {
+            Self { smoothed: None, kept: Some(kept) } => Arc::new(refitted(&kept, smoothed, yielder).await),
+            Self { smoothed: known, .. } => SurfaceIndex::known_or_built(known, smoothed, yielder).await,
+        }
     }
 }

@@ -26,7 +26,7 @@ pub(super) const ROW: Row = Row {
     is_wanted: |_, _| true,
     is_background: false,
     has: |now| now.smoothed.is_some(),
-    clear: |now| now.smoothed = None,
+    clear: |now| (now.smoothed, now.indices.smoothed) = (None, None),
     time: |times| &mut times.smoothing,
     start,
 };
