@@ -20,7 +20,7 @@ pub(super) struct Differing {
 impl Differing {
     /// Nothing measured yet; `id` is that of the command.
     pub(super) fn new(id: u64, first: Arc<TriMesh>, other: Arc<TriMesh>) -> Self {
-        let how = Comparing { samples: INTERACTIVE_SAMPLES, with_map: true, index_of_a: None };
+        let how = Comparing { samples: INTERACTIVE_SAMPLES, with_map: true, ..Comparing::default() };
         let a = first.clone();
         Self { id, first, comparing: Running::new(|yielder| async move { compare(&a, &other, how, &yielder).await }) }
     }

@@ -132,7 +132,6 @@ impl Carrying<'_> {
         }
         blend
     }
-
 }
 
 /// The closest points to the points that `query` names with an index; none where it names none.

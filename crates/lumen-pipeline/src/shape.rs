@@ -131,8 +131,8 @@ mod tests {
 
     use super::*;
     use crate::task::{Budget, Progress, Running};
-    use lumen_mesh::{Vec3, refitted};
     use lumen_mesh::shapes::{icosphere, square, tube};
+    use lumen_mesh::{Vec3, refitted};
 
     fn waisted() -> TriMesh {
         tube(24, 120, 40.0, |z| 3.0 - 1.5 * (-(z - 14.0) * (z - 14.0) / 9.0).exp())

@@ -116,10 +116,11 @@ fn at_station(wall: Wall<'_>, space: &Space, station: &Station, known: Option<Kn
     };
     let is_another_loop = known.zip(section).is_some_and(|(known, section)| {
         let Subject { mesh, topology, .. } = known.before;
-        let before = known.calibres[number].triangle;
-        let has_another =
-            |triangle| Shell { mesh, topology }.has_another_loop(triangle, at, direction, &space.index, section.area);
-        before.is_some_and(has_another)
+        let before = &known.calibres[number];
+        let has_another = |loop_before| {
+            Shell { mesh, topology }.has_another_loop(loop_before, at, direction, &space.index, section.area)
+        };
+        before.triangle.zip(before.area_mm2).is_some_and(has_another)
     });
     Calibre {
         area_mm2: found.area(),

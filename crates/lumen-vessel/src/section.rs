@@ -133,20 +133,20 @@ pub(super) struct Shell<'a> {
 
 impl Shell<'_> {
     /// Whether the surface that was made from this one, whose wall is `moved`, has its area of `area` mm2 in the plane
-    /// across `normal` at `p` by another loop than this has there through `triangle`.
+    /// across `normal` at `p` by another loop than this has there through `triangle`, with an area of `before` mm2.
     pub(super) fn has_another_loop(
         &self,
-        triangle: u32,
+        (triangle, before): (u32, f64),
         p: DVec3,
         normal: DVec3,
         moved: &SurfaceIndex,
         area: f64,
     ) -> bool {
-        let Some(rim) = self.rim(triangle, p, normal) else { return false };
-        let before = summed(&rim, p, normal, triangle).area;
+        // Nearly always: the loop is as long as the vessel is wide.
         if ((area / before).sqrt() - 1.0).abs() <= JUMP {
             return false;
         }
+        let Some(rim) = self.rim(triangle, p, normal) else { return false };
         // What the wall has moved by, times the length of the loop, summed up until it is enough.
         let mut left = (area - before).abs() / STEEP;
         let mut last = None;
@@ -270,7 +270,7 @@ mod tests {
         let [section, moved] = [before, after].map(|mesh| cut(mesh, p, DVec3::Z).unwrap());
         let index = SurfaceIndex::new(&after.positions, &after.triangles);
         let shell = Shell { mesh: before, topology: &topology };
-        shell.has_another_loop(section.triangle, p, DVec3::Z, &index, moved.area)
+        shell.has_another_loop((section.triangle, section.area), p, DVec3::Z, &index, moved.area)
     }
 
     #[test]

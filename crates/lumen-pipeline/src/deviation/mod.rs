@@ -61,7 +61,7 @@ mod tests {
 
     /// With a map.
     fn compared(a: &TriMesh, b: &TriMesh, samples: usize) -> Comparison {
-        comparison(a, b, Comparing { samples, with_map: true, index_of_a: None })
+        comparison(a, b, Comparing { samples, with_map: true, ..Comparing::default() })
     }
 
     #[test]
@@ -210,7 +210,7 @@ mod tests {
     #[test]
     fn slices_and_a_given_index_change_nothing() {
         let (a, b) = (&icosphere(3, 10.0, Vec3::ZERO), &icosphere(4, 10.5, Vec3::X));
-        let how = Comparing { samples: 5000, with_map: true, index_of_a: None };
+        let how = Comparing { samples: 5000, with_map: true, ..Comparing::default() };
         let whole = compared(a, b, 5000);
         let mut running = Running::new(|yielder| async move { compare(a, b, how, &yielder).await });
         let mut fraction = 0.0;
@@ -224,8 +224,8 @@ mod tests {
             }
         };
         assert_eq!(sliced.comparison.unwrap(), whole);
-        let [index_of_a, _] = sliced.indices;
-        assert_eq!(comparison(a, b, Comparing { samples: 5000, with_map: true, index_of_a }), whole);
+        let indices = sliced.indices;
+        assert_eq!(comparison(a, b, Comparing { samples: 5000, with_map: true, indices }), whole);
     }
 
     #[test]

@@ -36,8 +36,8 @@ pub struct Comparing {
     pub samples: usize,
     /// Whether a map of the distances over the second surface is made as well.
     pub with_map: bool,
-    /// An index of the first surface that is there already: for many levels compared with one input.
-    pub index_of_a: Option<Arc<SurfaceIndex>>,
+    /// Indices of either that are there already.
+    pub indices: [Option<Arc<SurfaceIndex>>; 2],
 }
 
 /// What came of comparing two surfaces.
@@ -52,16 +52,16 @@ pub struct Compared {
 /// Compares `a` with `b`. Rests every fraction of a millisecond; the summary at the end takes up to 15 ns a sample in one
 /// piece.
 pub async fn compare(a: &TriMesh, b: &TriMesh, how: Comparing, yielder: &Yielder) -> Compared {
-    let Comparing { samples, with_map, index_of_a } = how;
+    let Comparing { samples, with_map, indices: [index_of_a, index_of_b] } = how;
     let samples = samples.max(1);
     let [of_b, areas_a, areas_b, vertices_a, samples_a, of_a, samples_b, vertices_b, map] =
-        parts(a, b, samples, index_of_a.is_some()).map(|part| yielder.part(part));
-    let index_of_b = SurfaceIndex::known_or_built(None, b, &of_b).await;
+        parts(a, b, samples, [index_of_a.is_some(), index_of_b.is_some()]).map(|part| yielder.part(part));
+    let index_of_b = SurfaceIndex::known_or_built(index_of_b, b, &of_b).await;
     let a = Side::new(a, 0..a.triangles.len() as u32, &areas_a).await;
     // A level's triangles stand in the order in which they go: the tree has those together that lie together.
     let b = Side::new(b, index_of_b.triangles(), &areas_b).await;
     if !(a.has_area() && b.has_area()) {
-        return Compared { comparison: None, indices: [index_of_a, None] };
+        return Compared { comparison: None, indices: [index_of_a, Some(index_of_b)] };
     }
     let mut measured = Measured { samples, map: with_map.then(DistanceMap::new), ..Measured::default() };
     // Vertices count where they are farther than all before.
@@ -80,16 +80,16 @@ pub async fn compare(a: &TriMesh, b: &TriMesh, how: Comparing, yielder: &Yielder
 }
 
 /// The parts of the work that each step of [`compare`] is, by rule of thumb in nanoseconds.
-fn parts(a: &TriMesh, b: &TriMesh, samples: usize, has_index: bool) -> [std::ops::Range<f32>; 9] {
+fn parts(a: &TriMesh, b: &TriMesh, samples: usize, [has_a, has_b]: [bool; 2]) -> [std::ops::Range<f32>; 9] {
     let [triangles_a, triangles_b] = [a, b].map(|mesh| mesh.triangles.len());
     let [vertices_a, vertices_b] = [a, b].map(|mesh| mesh.positions.len());
     let costs = [
-        250 * triangles_b,
+        if has_b { 0 } else { 250 * triangles_b },
         10 * triangles_a,
         10 * triangles_b,
         200 * vertices_a,
         700 * samples,
-        if has_index { 0 } else { 250 * triangles_a },
+        if has_a { 0 } else { 250 * triangles_a },
         700 * samples,
         200 * vertices_b,
         20 * (triangles_b + samples),

@@ -37,12 +37,8 @@ fn start(store: &Store) -> Option<Run> {
         // The deviation has built both, but where one of the surfaces has no area.
         let of_smoothed = of_smoothed.get(&smoothed.mesh, &yielder.part(0.0..0.05)).await;
         let of_level = SurfaceIndex::known_or_built(of_level, &reduced.mesh, &yielder.part(0.05..0.1)).await;
-        let from = Entered {
-            arrays,
-            mesh: smoothed.mesh.clone(),
-            index: of_smoothed,
-            vertex_of_node: levels.vertex_of_node,
-        };
+        let from =
+            Entered { arrays, mesh: smoothed.mesh.clone(), index: of_smoothed, vertex_of_node: levels.vertex_of_node };
         let (triangles, part) = (&reduced.level.triangles, yielder.part(0.1..1.0));
         let arrays = Arc::new(carry(&from, triangles, &reduced.mesh, &of_level, &part).await);
         outbox.leave(|store| store.now.arrays = Some(arrays));

@@ -28,18 +28,19 @@ fn start(store: &Store) -> Option<Run> {
     let (of_smoothed, of_kept) = (SmoothedIndex::known(store), now.indices.kept.clone());
     let samples = store.samples;
     Some(Run::new(move |yielder, outbox| async move {
-        let comparing = |index_of_a| Comparing { samples, with_map: true, index_of_a };
+        let comparing = |indices| Comparing { samples, with_map: true, indices };
         let of_smoothed = of_smoothed.get(&smoothed.mesh, &yielder.part(0.0..0.05)).await;
         let part = yielder.part(0.05..0.5);
-        let smoothed = compare(&smoothed.mesh, &reduced.mesh, comparing(Some(of_smoothed)), &part).await;
+        let smoothed = compare(&smoothed.mesh, &reduced.mesh, comparing([Some(of_smoothed), None]), &part).await;
         let part = yielder.part(0.5..1.0);
-        let original = compare(&kept.mesh, &reduced.mesh, comparing(of_kept), &part).await;
+        let [of_smoothed, of_level] = smoothed.indices;
+        let original = compare(&kept.mesh, &reduced.mesh, comparing([of_kept, of_level]), &part).await;
         let by_node = by_node(&levels.progressive, &reduced, smoothed.comparison.as_ref());
         let deviations = Deviations { from_smoothed: smoothed.comparison, from_original: original.comparison, by_node };
         outbox.leave(|store| {
             let indices = &mut store.now.indices;
-            [indices.smoothed, indices.level] = smoothed.indices;
-            [indices.kept, _] = original.indices;
+            indices.smoothed = of_smoothed;
+            [indices.kept, indices.level] = original.indices;
             store.now.deviations = Some(Arc::new(deviations));
         });
     }))
