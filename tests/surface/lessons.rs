@@ -528,9 +528,9 @@ const CLAIMS: &[Claim] = &[
     Claim {
         at: ("decimation", 3),
         says: [
-            "from 99.8 % on a vessel is pinched",
-            "Ab 99,8 % ist ein Gefäß eingeschnürt",
-            "à partir de 99,8 % un vaisseau est pincé",
+            "from 99.7 % on a vessel is pinched",
+            "Ab 99,7 % ist ein Gefäß eingeschnürt",
+            "à partir de 99,7 % un vaisseau est pincé",
         ],
         truth: Is(
             |seen| seen.pipeline().smoothed_measures().unwrap().pinch.map_or(0.0, |pinch| pinch.from_percent),

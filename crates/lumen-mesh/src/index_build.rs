@@ -1,6 +1,6 @@
 //! Builds a [`SurfaceIndex`] in slices.
 //!
-//! Top-down by the surface-area heuristic over 16 bins of the longest axis of the centroids' box (Wald, "On fast
+//! Top-down by the surface-area heuristic over at most 16 bins of the longest axis of the centroids' box (Wald, "On fast
 //! construction of SAH-based bounding volume hierarchies", 2007). Two binary splits make one four-wide node. Where the
 //! bins cannot separate the centroids, or a branch has grown too deep, the range is split at its median instead, which
 //! bounds the depth for any input.
@@ -421,7 +421,8 @@ impl IndexBuild {
                 }
             },
         };
-        let used = work.min(pending.range.len()) + SPLIT_COST;
+        // Each item is put in a bin and then parted.
+        let used = 2 * work.min(pending.range.len()) + SPLIT_COST;
         match self.split.advance(&pending.range, &mut self.items, work) {
             None => self.active = Some(pending),
             Some(parts) => parts.into_iter().for_each(|range| self.place(range, &pending)),

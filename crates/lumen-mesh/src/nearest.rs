@@ -210,7 +210,7 @@ impl SurfaceIndex {
     pub fn is_within_from(&self, p: Vec3, distance: f32, last: &mut u32) -> bool {
         let Some(bound) = bounded(distance) else { return false };
         let enough = bound.projection.squared;
-        let is_there = |leaf: &Leaf| leaf.project_point(p).squared <= enough;
+        let is_there = |leaf: &Leaf| p.is_finite() && leaf.project_point(p).squared <= enough;
         if self.leaves.get(*last as usize).is_some_and(is_there) {
             return true;
         }

@@ -410,6 +410,24 @@ mod tests {
     }
 
     #[test]
+    fn what_was_made_before_changes_no_number() {
+        for smoothing in [Smoothing::PAPER, Smoothing { iterations: 0, ..Smoothing::default() }] {
+            let settings = Settings { smoothing, target: Target::Reduction(900), ..Settings::default() };
+            let mut again = finished();
+            let mut anew = Pipeline::new(again.opened().clone(), settings.clone()).with_samples(2_000);
+            again.set(settings).unwrap();
+            for pipeline in [&mut again, &mut anew] {
+                pipeline.finish().unwrap();
+            }
+            let [again, anew] = [again, anew].map(|pipeline| {
+                let (apart, measured) = (pipeline.deviations().unwrap(), pipeline.smoothed_measures().unwrap());
+                (apart.from_smoothed.clone(), apart.from_original.clone(), measured.shape.clone(), measured.pinch)
+            });
+            assert_eq!(again, anew);
+        }
+    }
+
+    #[test]
     fn a_cancelled_run_leaves_the_last_result_standing() {
         let mut pipeline = finished();
         let (reduced, settings) = (pipeline.reduced().unwrap().clone(), pipeline.settings().clone());

@@ -147,6 +147,8 @@ impl Shell<'_> {
             return false;
         }
         let Some(rim) = self.rim(triangle, p, normal) else { return false };
+        // Where the vessel had moved the area was that of a plane beside.
+        let before = summed(&rim, p, normal, triangle).area;
         // What the wall has moved by, times the length of the loop, summed up until it is enough.
         let mut left = (area - before).abs() / STEEP;
         let mut last = None;

@@ -232,7 +232,7 @@ lesson-decimation-text =
 
     step: Was sich nie ändert
     text: Kein offenes Ende wird geschlossen, keine zwei Gefäße werden verbunden, und kein Dreieck schneidet danach ein anderes. Ein
-      Kaliber kann sich ändern: Ab 99,8 % ist ein Gefäß eingeschnürt, und das Urteil sagt, wo. Wo nichts mehr gehen darf, endet der
+      Kaliber kann sich ändern: Ab 99,7 % ist ein Gefäß eingeschnürt, und das Urteil sagt, wo. Wo nichts mehr gehen darf, endet der
       Lauf.
     settings: reduction=99.9
     view: anterior

@@ -227,7 +227,7 @@ lesson-decimation-text =
 
     step: What never changes
     text: No open end is closed, no two vessels are joined, and no triangle is made to cross another. A calibre may change: from
-      99.8 % on a vessel is pinched, and the verdict says where. Where nothing more may go, the run ends.
+      99.7 % on a vessel is pinched, and the verdict says where. Where nothing more may go, the run ends.
     settings: reduction=99.9
     view: anterior
     show: flat

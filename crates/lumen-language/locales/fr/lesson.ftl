@@ -232,7 +232,7 @@ lesson-decimation-text =
 
     step: Ce qui ne change jamais
     text: Aucune extrémité ouverte n'est fermée, aucun vaisseau n'est joint à un autre, et aucun triangle n'est amené à en croiser un
-      autre. Un calibre peut changer : à partir de 99,8 % un vaisseau est pincé, et le verdict dit où. Là où rien de plus ne
+      autre. Un calibre peut changer : à partir de 99,7 % un vaisseau est pincé, et le verdict dit où. Là où rien de plus ne
       peut partir, la décimation s'arrête.
     settings: reduction=99.9
     view: anterior

@@ -27,7 +27,7 @@ use self::history::History;
 use self::trial::{Counterexample, Memory, Surfaces, distance, ruled_out};
 use super::progressive::ProgressiveMesh;
 use super::task::Yielder;
-use lumen_mesh::{SurfaceIndex, TriMesh, distance_to_triangle};
+use lumen_mesh::{SurfaceIndex, distance_to_triangle};
 
 /// Steps of a leap between two looks at the clock.
 const STEPS: u32 = 32;
@@ -49,25 +49,21 @@ enum Last {
     Distance(f64),
 }
 
-/// The coarsest level of `progressive`, whose finest is `finest` with this `index`, that is within `bound_mm`. Rests every
+/// The coarsest level of `progressive` that is within `bound_mm`. Rests every
 /// fraction of a millisecond, but for the beginning of each level (a few nanoseconds a node).
-pub async fn bound_in_slices(
-    progressive: &ProgressiveMesh,
-    finest: &TriMesh,
-    index: &SurfaceIndex,
-    bound_mm: f64,
-    yielder: &Yielder,
-) -> Bound {
+pub async fn bound_in_slices(progressive: &ProgressiveMesh, bound_mm: f64, yielder: &Yielder) -> Bound {
     let most = progressive.errors.len() as u32;
     // The part that is done: how far the search has come from the coarsest level.
     let at = |steps: u32| {
         let done = 1.0 - steps as f32 / most.max(1) as f32;
         yielder.part(done..done)
     };
+    // Of the finest level in the numbering of the progressive mesh: a triangle is known by one number at all levels.
+    let fine = SurfaceIndex::build(&progressive.positions, &progressive.triangles, &at(most)).await;
     let history = History::new(progressive, &at(most)).await;
     let is_vertex = is_vertex(progressive);
-    let all = Surfaces { progressive, finest, fine: index, is_vertex: &is_vertex };
-    let mut memory = Memory::new(finest.triangles.len());
+    let all = Surfaces { progressive, fine: &fine, is_vertex: &is_vertex };
+    let mut memory = Memory::new(progressive.triangles.len());
     let (mut steps, mut last) = (most, None);
     while steps > 0 {
         match ruled_out(&all, steps, bound_mm, &mut memory, &at(steps)).await {
@@ -143,7 +139,7 @@ mod tests {
     use crate::deviation::deviation;
     use crate::settings::{Decimation, Method};
     use crate::task::{Budget, Progress, Running, at_once};
-    use lumen_mesh::{Topology, surface_area};
+    use lumen_mesh::{Topology, TriMesh, surface_area};
     use lumen_vessel::phantom::{Sample, generate};
 
     fn levels(mesh: &TriMesh) -> Arc<ProgressiveMesh> {
@@ -156,9 +152,7 @@ mod tests {
     }
 
     fn search(levels: &Arc<ProgressiveMesh>, bound: f64) -> Bound {
-        let finest = levels.finest();
-        let index = SurfaceIndex::new(&finest.positions, &finest.triangles);
-        at_once(bound_in_slices(levels, &finest, &index, bound, &Yielder::never()))
+        at_once(bound_in_slices(levels, bound, &Yielder::never()))
     }
 
     fn largest(levels: &ProgressiveMesh, steps: u32, samples: usize) -> f64 {
@@ -206,10 +200,8 @@ mod tests {
     fn slices_change_nothing_and_progress_goes_up() {
         let levels = levels(&generate(Sample::Aorta, 2_000).unwrap());
         let whole = search(&levels, 0.2);
-        let (levels, finest) = (&levels, &levels.finest());
-        let index = &SurfaceIndex::new(&finest.positions, &finest.triangles);
-        let mut running =
-            Running::new(|yielder| async move { bound_in_slices(levels, finest, index, 0.2, &yielder).await });
+        let levels = &levels;
+        let mut running = Running::new(|yielder| async move { bound_in_slices(levels, 0.2, &yielder).await });
         let mut before = 0.0;
         let sliced = loop {
             match running.advance(Budget::new(Duration::ZERO)) {

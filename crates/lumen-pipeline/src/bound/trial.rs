@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::history::births;
 use crate::progressive::ProgressiveMesh;
 use lumen_mesh::task::{Yielder, blocks};
-use lumen_mesh::{HausdorffBound, SurfaceIndex, TriMesh};
+use lumen_mesh::{HausdorffBound, SurfaceIndex};
 
 /// Queries or pieces between two looks at the clock.
 const QUERIES: usize = 64;
@@ -54,7 +54,7 @@ impl Memory {
 /// The surfaces that a trial compares.
 pub(super) struct Surfaces<'a> {
     pub(super) progressive: &'a ProgressiveMesh,
-    pub(super) finest: &'a TriMesh,
+    /// Of the finest level.
     pub(super) fine: &'a SurfaceIndex,
     /// Whether each node is a vertex of the finest level; a method may make others.
     pub(super) is_vertex: &'a [bool],
@@ -166,7 +166,9 @@ impl Level {
         for block in order.chunks(QUERIES) {
             for &t in block {
                 let t = t as usize;
-                match settle(&mut reach, all.finest.corners(t), &self.index, yielder).await {
+                let ProgressiveMesh { positions, triangles, .. } = all.progressive;
+                let corners = triangles[t].map(|v| positions[v as usize]);
+                match settle(&mut reach, corners, &self.index, yielder).await {
                     Settled::Within(by) => {
                         memory.fine[t] = by.map_or((0, NO_BIRTH), |by| (by, self.births[by as usize]));
                     }

@@ -5,10 +5,11 @@
 //! error on simplified surfaces", 1998). The maximum is over the samples and all
 //! vertices of both, so it misses no tip; it remains a lower bound of the Hausdorff distance, which can lie between.
 //!
-//! Sample `i` of `n` lies in the `i`-th of `n` equal parts of the area, in the order of the triangles, and its place
-//! there comes from a hash of `i` (SplitMix64: Steele, Lea and Flood, "Fast splittable pseudorandom number generators",
-//! 2014). A sample is thus known from its number alone, and the result depends on neither slices nor threads: all cores
-//! measure samples, and of equal distances the first counts.
+//! Sample `i` of `n` lies in the `i`-th of `n` equal parts of the area, in the order of the triangles (of the second
+//! surface in that of its index, where neighbours in space follow each other), and its place there comes from a hash of
+//! `i` (SplitMix64: Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014). A sample is thus known
+//! from its number alone, and the result depends on neither slices nor threads: all cores measure samples, and of equal
+//! distances the first counts.
 //!
 //! The same samples make a map over the second surface ([`Comparing::with_map`]): each counts at the corners of the
 //! triangle that it lies on or is nearest to, by its place there, and a vertex has the mean of what counts at it. So the

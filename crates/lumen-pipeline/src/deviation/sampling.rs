@@ -14,8 +14,8 @@ const UNITS: usize = 8192;
 #[derive(Debug)]
 pub(super) struct Side<'a> {
     pub(super) mesh: &'a TriMesh,
-    /// Triangles in the order in which samples go through them.
-    order: Vec<u32>,
+    /// Triangles in the order in which samples go through them; `None` where that is their own.
+    order: Option<Vec<u32>>,
     /// Area of those up to and with each of the order, in mm2.
     areas: Vec<f64>,
     /// Vertices that a triangle uses.
@@ -23,15 +23,14 @@ pub(super) struct Side<'a> {
 }
 
 impl<'a> Side<'a> {
-    pub(super) async fn new(mesh: &'a TriMesh, order: impl Iterator<Item = u32>, yielder: &Yielder) -> Self {
-        let order: Vec<u32> = order.collect();
-        let count = order.len();
+    pub(super) async fn new(mesh: &'a TriMesh, order: Option<Vec<u32>>, yielder: &Yielder) -> Self {
+        let count = order.as_ref().map_or(mesh.triangles.len(), Vec::len);
         let (mut areas, mut used) = (Vec::with_capacity(count), vec![false; mesh.positions.len()]);
         let mut total = 0.0;
         for block in blocks(count, UNITS) {
             let end = block.end;
-            for &t in &order[block] {
-                let t = t as usize;
+            for at in block {
+                let t = order.as_ref().map_or(at, |order| order[at] as usize);
                 let area = triangle_area(mesh.corners(t));
                 if area.is_finite() {
                     total += area;
@@ -88,13 +87,14 @@ impl Sampler<'_> {
             while t + 1 < areas.len() && areas[t] <= target {
                 t += 1;
             }
-            let triangle = self.side.order[t.min(areas.len() - 1)];
-            let [a, b, c] = self.side.mesh.corners(triangle as usize).map(Vec3::as_dvec3);
+            let at = t.min(areas.len() - 1);
+            let triangle = self.side.order.as_ref().map_or(at, |order| order[at] as usize);
+            let [a, b, c] = self.side.mesh.corners(triangle).map(Vec3::as_dvec3);
             // The square root makes the density even (Osada, Funkhouser, Chazelle and Dobkin 2002, section 3.2).
             let (root, along) = (unit(self.stream, i, 1).sqrt(), unit(self.stream, i, 2));
             let weights = [1.0 - root, root * (1.0 - along), root * along];
             let point = (a * weights[0] + b * weights[1] + c * weights[2]).as_vec3();
-            Sample { point, triangle, weights: weights.map(|weight| weight as f32) }
+            Sample { point, triangle: triangle as u32, weights: weights.map(|weight| weight as f32) }
         })
     }
 }
@@ -114,7 +114,7 @@ mod tests {
         // Triangles of very different size; each gets its share of the samples to within one at either end.
         let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(-9.0, 0.0, 0.0), Vec3::new(0.0, -90.0, 0.0)];
         let mesh = TriMesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]] };
-        let side = at_once(Side::new(&mesh, [2, 0, 1].into_iter(), &Yielder::never()));
+        let side = at_once(Side::new(&mesh, Some(vec![2, 0, 1]), &Yielder::never()));
         let sampler = Sampler { side: &side, count: 8200, stream: 1 };
         let points: Vec<Vec3> = sampler.samples(0, 8200).map(|sample| sample.point).collect();
         let large = points.iter().filter(|p| p.y < 0.0).count();

@@ -57,9 +57,9 @@ pub async fn compare(a: &TriMesh, b: &TriMesh, how: Comparing, yielder: &Yielder
     let [of_b, areas_a, areas_b, vertices_a, samples_a, of_a, samples_b, vertices_b, map] =
         parts(a, b, samples, [index_of_a.is_some(), index_of_b.is_some()]).map(|part| yielder.part(part));
     let index_of_b = SurfaceIndex::known_or_built(index_of_b, b, &of_b).await;
-    let a = Side::new(a, 0..a.triangles.len() as u32, &areas_a).await;
+    let a = Side::new(a, None, &areas_a).await;
     // A level's triangles stand in the order in which they go: the tree has those together that lie together.
-    let b = Side::new(b, index_of_b.triangles(), &areas_b).await;
+    let b = Side::new(b, Some(index_of_b.triangles().collect()), &areas_b).await;
     if !(a.has_area() && b.has_area()) {
         return Compared { comparison: None, indices: [index_of_a, Some(index_of_b)] };
     }

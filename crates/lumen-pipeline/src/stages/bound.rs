@@ -1,6 +1,6 @@
 //! The search for the level within a bound on the deviation, as a stage.
 
-use super::{Row, Run, SmoothedIndex};
+use super::{Row, Run};
 use crate::bound::bound_in_slices;
 use crate::stage::Stage;
 use crate::store::Store;
@@ -20,15 +20,10 @@ pub(super) const ROW: Row = Row {
 };
 
 fn start(store: &Store) -> Option<Run> {
-    let (levels, smoothed) = (store.now.levels.clone()?, store.now.smoothed.clone()?);
+    let levels = store.now.levels.clone()?;
     let bound_mm = store.now.settings.target.deviation_mm()?;
-    let index = SmoothedIndex::known(store);
     Some(Run::new(move |yielder, outbox| async move {
-        let index = index.get(&smoothed.mesh, &yielder.part(0.0..0.0)).await;
-        let bound = bound_in_slices(&levels.progressive, &smoothed.mesh, &index, bound_mm, &yielder).await;
-        outbox.leave(move |store| {
-            store.now.indices.smoothed = Some(index);
-            store.now.bound = Some(bound);
-        });
+        let bound = bound_in_slices(&levels.progressive, bound_mm, &yielder).await;
+        outbox.leave(move |store| store.now.bound = Some(bound));
     }))
 }

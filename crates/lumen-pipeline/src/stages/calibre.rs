@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Row, Run, SmoothedIndex};
+use super::{Row, Run};
 use crate::results::{Certified, NOT_MEASURED};
 use crate::settings::Target;
 use crate::stage::{Stage, Wanted};
@@ -38,11 +38,9 @@ fn start_vessels(store: &Store) -> Option<Run> {
     let (kept, smoothed) = (now.kept.as_ref()?, now.smoothed.as_ref()?);
     let (topology, index) = (kept.topology.clone(), now.indices.kept.clone());
     let of_kept = Subject { mesh: kept.mesh.clone(), topology: topology.clone(), index };
-    let (mesh, index) = (smoothed.mesh.clone(), SmoothedIndex::known(store));
+    let of_smoothed = Subject { mesh: smoothed.mesh.clone(), topology, index: now.indices.smoothed.clone() };
     Some(Run::new(|yielder, outbox| async move {
-        let index = index.get(&mesh, &yielder.part(0.0..0.05)).await;
-        let of_smoothed = Subject { mesh, topology, index: Some(index) };
-        let vessels = Basis::find(of_kept, of_smoothed, &yielder.part(0.05..1.0)).await.map(Arc::new);
+        let vessels = Basis::find(of_kept, of_smoothed, &yielder).await.map(Arc::new);
         outbox.leave(|store| store.now.vessels = Some(vessels));
     }))
 }

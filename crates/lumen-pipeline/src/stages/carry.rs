@@ -30,12 +30,11 @@ fn start(store: &Store) -> Option<Run> {
         ));
     }
     let arrays = kept_arrays(store)?;
-    let (of_smoothed, of_level) = (SmoothedIndex::known(store), now.indices.level.clone());
+    let (of_smoothed, of_level) = (SmoothedIndex::known(store)?, now.indices.level.clone());
     Some(Run::new(|yielder, outbox| async move {
         let left = (kept.clone(), arrays.clone());
         outbox.leave(|store| store.kept_arrays = Some(left));
-        // The deviation has built both, but where one of the surfaces has no area.
-        let of_smoothed = of_smoothed.get(&smoothed.mesh, &yielder.part(0.0..0.05)).await;
+        let [_, of_smoothed] = of_smoothed.both(&yielder.part(0.0..0.05)).await;
         let of_level = SurfaceIndex::known_or_built(of_level, &reduced.mesh, &yielder.part(0.05..0.1)).await;
         let from =
             Entered { arrays, mesh: smoothed.mesh.clone(), index: of_smoothed, vertex_of_node: levels.vertex_of_node };

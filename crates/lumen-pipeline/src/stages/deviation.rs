@@ -25,16 +25,16 @@ fn start(store: &Store) -> Option<Run> {
     let now = &store.now;
     let (kept, levels, reduced) = (now.kept.clone()?, now.levels.clone()?, now.reduced.clone()?);
     let smoothed = now.smoothed.clone()?;
-    let (of_smoothed, of_kept) = (SmoothedIndex::known(store), now.indices.kept.clone());
+    let indices = SmoothedIndex::known(store)?;
     let samples = store.samples;
     Some(Run::new(move |yielder, outbox| async move {
         let comparing = |indices| Comparing { samples, with_map: true, indices };
-        let of_smoothed = of_smoothed.get(&smoothed.mesh, &yielder.part(0.0..0.05)).await;
+        let [of_kept, of_smoothed] = indices.both(&yielder.part(0.0..0.05)).await;
         let part = yielder.part(0.05..0.5);
         let smoothed = compare(&smoothed.mesh, &reduced.mesh, comparing([Some(of_smoothed), None]), &part).await;
         let part = yielder.part(0.5..1.0);
         let [of_smoothed, of_level] = smoothed.indices;
-        let original = compare(&kept.mesh, &reduced.mesh, comparing([of_kept, of_level]), &part).await;
+        let original = compare(&kept.mesh, &reduced.mesh, comparing([Some(of_kept), of_level]), &part).await;
         let by_node = by_node(&levels.progressive, &reduced, smoothed.comparison.as_ref());
         let deviations = Deviations { from_smoothed: smoothed.comparison, from_original: original.comparison, by_node };
         outbox.leave(|store| {

@@ -32,18 +32,21 @@ pub(super) const OF_SMOOTHED: Row = Row {
 fn start_smoothed(store: &Store) -> Option<Run> {
     let now = &store.now;
     let (kept, smoothed, levels) = (now.kept.clone()?, now.smoothed.clone()?, now.levels.clone()?);
-    let index = SmoothedIndex::known(store);
+    let indices = SmoothedIndex::known(store)?;
     Some(Run::new(|yielder, outbox| async move {
         let yielder = yielder.part(0.0..SMOOTHED);
         let (mesh, topology) = (&smoothed.mesh, &kept.topology);
-        let index = index.get(mesh, &yielder.part(0.0..0.0)).await;
-        let known = Known { index: Some(index), crosses_nothing: smoothed.crosses_nothing };
-        let measured = shape_in_slices(mesh, topology, known, &yielder.part(0.0..0.4)).await;
+        let [of_kept, of_smoothed] = indices.both(&yielder.part(0.0..0.1)).await;
+        let known = Known { index: Some(of_smoothed.clone()), crosses_nothing: smoothed.crosses_nothing };
+        let measured = shape_in_slices(mesh, topology, known, &yielder.part(0.1..0.4)).await;
         let part = yielder.part(0.4..0.5);
         let samples = samples_in_slices(mesh, topology, &measured.balls, &measured.index, &part).await;
         let pinch = first_pinch_of(&levels.progressive, &samples, &yielder.part(0.5..1.0)).await;
         let found = SmoothedMeasures { shape: measured.shape, samples: samples.into(), pinch };
-        outbox.leave(|store| store.now.smoothed_measures = Some(Arc::new(found)));
+        outbox.leave(|store| {
+            (store.now.indices.kept, store.now.indices.smoothed) = (Some(of_kept), Some(of_smoothed));
+            store.now.smoothed_measures = Some(Arc::new(found));
+        });
     }))
 }
 

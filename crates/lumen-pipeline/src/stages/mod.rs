@@ -16,13 +16,13 @@ mod smoothing;
 
 use std::sync::Arc;
 
-use super::results::Results;
+use super::results::{Results, Smoothed, Surface};
 use super::settings::Settings;
 use super::stage::{Stage, Wanted};
 use super::store::Store;
 use super::task::Yielder;
 use super::times::StageTimes;
-use lumen_mesh::{SurfaceIndex, TriMesh, refitted};
+use lumen_mesh::{SurfaceIndex, refitted};
 pub(super) use running::{Outbox, Run};
 
 /// All that is known of a stage.
@@ -65,23 +65,32 @@ pub(super) fn row(stage: Stage) -> &'static Row {
     }
 }
 
-/// What the index of the smoothed surface is taken or made from.
+/// The index of the smoothed surface: always that of the kept surface with boxes of its own, whatever was made before, so that
+/// results are the same.
 pub(super) struct SmoothedIndex {
-    smoothed: Option<Arc<SurfaceIndex>>,
-    kept: Option<Arc<SurfaceIndex>>,
+    kept: Arc<Surface>,
+    smoothed: Arc<Smoothed>,
+    of_kept: Option<Arc<SurfaceIndex>>,
+    of_smoothed: Option<Arc<SurfaceIndex>>,
 }
 
 impl SmoothedIndex {
-    pub(super) fn known(store: &Store) -> Self {
-        let indices = &store.now.indices;
-        Self { smoothed: indices.smoothed.clone(), kept: indices.kept.clone() }
+    /// What there is of it; `None` before a surface is smoothed.
+    pub(super) fn known(store: &Store) -> Option<Self> {
+        let Results { kept, smoothed, indices, .. } = &store.now;
+        let (of_kept, of_smoothed) = (indices.kept.clone(), indices.smoothed.clone());
+        Some(Self { kept: kept.clone()?, smoothed: smoothed.clone()?, of_kept, of_smoothed })
     }
 
-    /// The index of `smoothed`: the one that is there, that of the kept surface with boxes of its own, or one built anew.
-    pub(super) async fn get(self, smoothed: &TriMesh, yielder: &Yielder) -> Arc<SurfaceIndex> {
-        match self {
-            Self { smoothed: None, kept: Some(kept) } => Arc::new(refitted(&kept, smoothed, yielder).await),
-            Self { smoothed: known, .. } => SurfaceIndex::known_or_built(known, smoothed, yielder).await,
-        }
+    /// The indices of the kept and of the smoothed surface.
+    pub(super) async fn both(self, yielder: &Yielder) -> [Arc<SurfaceIndex>; 2] {
+        let (kept, smoothed) = (&self.kept.mesh, &self.smoothed.mesh);
+        let of_kept = SurfaceIndex::known_or_built(self.of_kept, kept, &yielder.part(0.0..0.8)).await;
+        let of_smoothed = match self.of_smoothed {
+            Some(known) => known,
+            None if Arc::ptr_eq(kept, smoothed) => of_kept.clone(),
+            None => Arc::new(refitted(&of_kept, smoothed, &yielder.part(0.8..1.0)).await),
+        };
+        [of_kept, of_smoothed]
     }
 }

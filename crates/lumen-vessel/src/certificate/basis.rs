@@ -15,7 +15,7 @@ use crate::tree::{Branch, Tree};
 use crate::width::circle;
 use crate::zones::Zone;
 use lumen_mesh::task::Yielder;
-use lumen_mesh::{SurfaceIndex, mean_edge};
+use lumen_mesh::{SurfaceIndex, mean_edge, refitted};
 
 /// What more reduced surfaces are judged by: where the opened surface is measured, and what it and the smoothed one have
 /// there.
@@ -59,18 +59,24 @@ impl Basis {
     ///
     /// # Errors
     /// [`CalibreError`] where there are none.
-    pub async fn find(opened: Subject, smoothed: Subject, yielder: &Yielder) -> Result<Self, CalibreError> {
-        let Subject { mesh, topology, index } = &opened;
-        let index = SurfaceIndex::known_or_built(index.clone(), mesh, &yielder.part(0.0..0.05)).await;
+    pub async fn find(mut opened: Subject, mut smoothed: Subject, yielder: &Yielder) -> Result<Self, CalibreError> {
+        let index = SurfaceIndex::known_or_built(opened.index.take(), &opened.mesh, &yielder.part(0.0..0.05)).await;
+        opened.index = Some(index.clone());
+        let Subject { mesh, topology, .. } = &opened;
         let part = yielder.part(0.05..0.5);
-        let tree = checked(Tree::with_topology_in_slices(mesh, topology, index, &part).await)?;
+        let tree = checked(Tree::with_topology_in_slices(mesh, topology, index.clone(), &part).await)?;
         let (stations, zones, of_opened) = settled(&opened, &tree, &yielder.part(0.5..0.8)).await;
         let radius = |(station, found): (&Station, &Calibre)| {
             found.area_mm2.map_or(station.radius_mm, circle).max(station.radius_mm)
         };
         let radii: Vec<f64> = stations.all.iter().zip(&of_opened).map(radius).collect();
 
-        let space = smoothed.space(&yielder.part(0.8..0.85)).await;
+        if smoothed.index.is_none() && smoothed.mesh.triangles == mesh.triangles {
+            smoothed.index = Some(Arc::new(refitted(&index, &smoothed.mesh, &yielder.part(0.8..0.82)).await));
+        }
+        let space = smoothed.space(&yielder.part(0.82..0.85)).await;
+        // From here on only the surface is asked for.
+        smoothed.index = None;
         let known = Known { radii: &radii, before: &opened, calibres: &of_opened };
         let of_smoothed = measure(&smoothed, &space, &stations.all, Some(known), &yielder.part(0.85..1.0)).await;
         let edge_mm = f64::from(mean_edge(mesh));
