@@ -3,14 +3,13 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, Id, RichText, Role, Stroke, Ui, WidgetInfo};
-use egui_plot::{
-    AxisHints, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine,
-};
+use egui::{Align2, Color32, Id, RichText, Role, Stroke, Ui, WidgetInfo};
+use egui_plot::{AxisHints, GridMark, HoverPosition, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine};
 
+use super::plot_file::Drawn;
 use super::row::{Part, remark};
 use super::state::State;
-use super::still_plot::{still, tick};
+use super::still_plot::{curve, still, tick};
 use crate::language::decimal;
 use crate::pipeline::error_curve::CurvePoint;
 use crate::pipeline::safe::Safe;
@@ -87,33 +86,41 @@ fn plot(ui: &mut Ui, state: &State) -> Option<Target> {
         .custom_x_axes(vec![x_axis])
         .custom_y_axes(vec![y_axis])
         .label_formatter(hover_text);
-    let picture = picture.show(ui, |plot| {
-        plot.set_plot_bounds_x(log(coarsest)..=log(entering) + 0.02);
-        plot.set_plot_bounds_y(0.0..=highest);
-        for (kept, is_own) in std::iter::once((own, true)).chain(others.iter().map(|kept| (kept, false))) {
-            let points = kept.curve.iter().map(|point| [log(point.triangles), f64::from(point.error_mm)]);
-            let stroke = Stroke::new(2.0, if is_own { accent } else { weak });
-            plot.line(Line::new(kept.method.name(), points.collect::<PlotPoints<'_>>()).stroke(stroke));
-        }
-        let (safe, is_covered) =
-            (state.safe().and_then(|safe| safe.triangles), state.safe().is_some_and(Safe::is_covered));
-        let safe_name = if is_covered { say!("panel-error-safe") } else { say!("panel-error-kept") };
-        for (triangles, name, style, height) in [
-            (Some(now), say!("panel-error-now"), LineStyle::dashed_dense(), 0.98),
-            (safe, safe_name, LineStyle::dotted_loose(), 0.86),
-        ] {
-            let Some(at) = triangles.map(log) else { continue };
-            plot.vline(VLine::new("", at).color(ink).style(style).allow_hover(false));
-            let label = Text::new("", PlotPoint::new(at + 0.03, height * highest), small(&name).color(ink));
-            plot.text(label.anchor(Align2::LEFT_TOP).allow_hover(false));
-        }
-        if let Some(found) = measured {
-            for (name, mm) in [(say!("panel-deviation-mean"), found.mean), (say!("panel-deviation-max"), found.max)] {
-                plot.points(Points::new(name, [log(now), mm]).radius(4.0).color(ink));
+    let shown = ui.scope(|ui| {
+        picture.show(ui, |plot| {
+            plot.set_plot_bounds_x(log(coarsest)..=log(entering) + 0.02);
+            plot.set_plot_bounds_y(0.0..=highest);
+            for (kept, is_own) in std::iter::once((own, true)).chain(others.iter().map(|kept| (kept, false))) {
+                let points = kept.curve.iter().map(|point| [log(point.triangles), f64::from(point.error_mm)]);
+                let stroke = Stroke::new(2.0, if is_own { accent } else { weak });
+                plot.line(curve(kept.method.name(), points.collect::<PlotPoints<'_>>()).stroke(stroke));
             }
-        }
-        plot.pointer_coordinate().filter(|_| plot.response().clicked())
+            let (safe, is_covered) =
+                (state.safe().and_then(|safe| safe.triangles), state.safe().is_some_and(Safe::is_covered));
+            let safe_name = if is_covered { say!("panel-error-safe") } else { say!("panel-error-kept") };
+            for (triangles, name, style, height) in [
+                (Some(now), say!("panel-error-now"), LineStyle::dashed_dense(), 0.98),
+                (safe, safe_name, LineStyle::dotted_loose(), 0.86),
+            ] {
+                let Some(at) = triangles.map(log) else { continue };
+                plot.vline(VLine::new("", at).color(ink).style(style).allow_hover(false));
+                let label = Text::new("", PlotPoint::new(at + 0.03, height * highest), small(&name).color(ink));
+                plot.text(label.anchor(Align2::LEFT_TOP).allow_hover(false));
+            }
+            if let Some(found) = measured {
+                for (name, mm) in [(say!("panel-deviation-mean"), found.mean), (say!("panel-deviation-max"), found.max)]
+                {
+                    plot.points(Points::new(name, [log(now), mm]).radius(4.0).color(ink));
+                }
+            }
+            plot.pointer_coordinate().filter(|_| plot.response().clicked())
+        })
     });
+    let (picture, whole) = (shown.inner, shown.response.rect);
+    let colours = std::iter::once(accent).chain(std::iter::repeat(weak));
+    let legend: Vec<(&str, Color32)> = curves.iter().map(|kept| kept.method.name()).zip(colours).collect();
+    let title = say!("panel-error");
+    Drawn { stem: "error", title: &title, legend: &legend, whole, frame: picture.response.rect }.offer(ui);
     let text = say!("panel-error-is", error = decimal(now_mm, 3), count = now);
     picture.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &text));
     remark(ui, &format!("{text}. {}", measure(own.method)));

@@ -33,6 +33,8 @@ pub(super) enum Icon {
     About,
     /// A triangle that points down.
     Down,
+    /// An arrow down, onto a line.
+    Save,
 }
 
 /// A button that is an icon. `label` is its name for assistive tools and stands over its `help`, which says what it does.
@@ -73,7 +75,7 @@ fn held(ui: &mut Ui, icon: Icon, enabled: bool, is_on: bool, sense: Sense, label
 fn sensed(ui: &mut Ui, icon: Icon, enabled: bool, sense: Sense, label: &str, help: &str) -> Response {
     let enabled = enabled && ui.is_enabled();
     let size = match icon {
-        Icon::Reset | Icon::Close => vec2(1.0, 1.0) * theme::row(ui.ctx(), 20.0),
+        Icon::Reset | Icon::Close | Icon::Save => vec2(1.0, 1.0) * theme::row(ui.ctx(), 20.0),
         Icon::Down => vec2(theme::row(ui.ctx(), 20.0), ui.spacing().interact_size.y),
         _ => vec2(1.0, 1.0) * ui.spacing().interact_size.y,
     };
@@ -142,6 +144,12 @@ fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
             painter.text(middle, Align2::CENTER_CENTER, letter, FontId::proportional(12.0), colour);
         }
         Icon::Down => down(painter, middle, colour),
+        Icon::Save => {
+            let tip = middle + vec2(0.0, 2.5);
+            painter.line_segment([middle - vec2(0.0, 6.0), tip], stroke);
+            head(painter, tip, vec2(0.0, 1.0), stroke);
+            painter.line_segment([middle + vec2(-6.0, 6.0), middle + vec2(6.0, 6.0)], stroke);
+        }
         Icon::Menu => {
             for y in [-5.0, 0.0, 5.0] {
                 painter.line_segment([middle + vec2(-7.0, y), middle + vec2(7.0, y)], stroke);

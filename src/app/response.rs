@@ -3,14 +3,13 @@
 use std::sync::Arc;
 
 use egui::{Align2, Id, RichText, Role, Stroke, Ui, WidgetInfo};
-use egui_plot::{
-    AxisHints, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine,
-};
+use egui_plot::{AxisHints, GridMark, HoverPosition, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine};
 
 use super::assist::heading;
 use super::control::Setting;
+use super::plot_file::Drawn;
 use super::row::{Part, remark, wrapped};
-use super::still_plot::still;
+use super::still_plot::{self, still};
 use crate::language::{decimal, grouped};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::laplacian::{RELAXATION, laplacian_response};
@@ -291,7 +290,7 @@ fn picture(
     let points = |left: &dyn Fn(f64) -> f64| -> PlotPoints<'static> {
         (0..=steps).map(|step| [at(step), left(libm::exp10(at(step)))]).collect()
     };
-    let curve = Line::new("response", points(&|k| filter.response(k))).stroke(Stroke::new(2.0, accent));
+    let curve = still_plot::curve("response", points(&|k| filter.response(k))).stroke(Stroke::new(2.0, accent));
     let band = libm::log10(response.pass_band);
     let half = response.half_gain.map(libm::log10);
     let marks = marks(edge_length);
@@ -319,49 +318,54 @@ fn picture(
         .custom_x_axes(vec![x_axis])
         .custom_y_axes(vec![y_axis])
         .label_formatter(move |hover| hover_text(hover, edge_length));
-    let shown = plot.show(ui, |plot| {
-        plot.set_plot_bounds_x(RANGE.0..=RANGE.1);
-        // Above the curve there is room for the name of a line.
-        plot.set_plot_bounds_y(if last_term.is_some() { -0.3..=1.42 } else { -0.12..=1.42 });
-        plot.vline(VLine::new("", band).color(weak).style(LineStyle::dashed_dense()).allow_hover(false));
-        if let Some((k, around)) = scale.around_thinnest() {
-            let at = libm::log10(k);
-            plot.vline(VLine::new("", at).color(ink).style(LineStyle::dotted_loose()).allow_hover(false));
-            let (side, gap) = if at > -1.6 { (Align2::RIGHT_TOP, -0.05) } else { (Align2::LEFT_TOP, 0.05) };
-            let label = small(say!("panel-response-thinnest", length = in_mm(around))).color(ink);
-            plot.text(Text::new("", PlotPoint::new(at + gap, 1.4), label).anchor(side).allow_hover(false));
-        }
-        let styles = [LineStyle::dashed_dense(), LineStyle::dotted_dense(), LineStyle::dashed_loose()];
-        for (other, style) in others.iter().zip(styles) {
-            let points = points(&|k| other.response(k));
-            plot.line(Line::new("", points).stroke(Stroke::new(1.0, ink)).style(style).allow_hover(false));
-        }
-        if let Some(passes) = passes {
-            let points = points(&|k| laplacian_response(k, passes));
-            plot.line(Line::new("", points).stroke(Stroke::new(2.0, red)).allow_hover(false));
-        }
-        if let Some(last) = last_term {
-            let points = points(&|k| filter.partial_response(last as usize, k));
-            plot.line(Line::new("", points).stroke(Stroke::new(1.0, ink)).allow_hover(false));
-        }
-        plot.line(curve);
-        plot.vline(VLine::new("", log_k).color(accent).width(1.0).allow_hover(false));
-        let here = [log_k, filter.response(libm::exp10(log_k))];
-        plot.points(Points::new("", here).radius(5.0).filled(false).color(accent).allow_hover(false));
-        let (side, gap) = if band > -2.2 { (Align2::RIGHT_BOTTOM, -0.05) } else { (Align2::LEFT_BOTTOM, 0.05) };
-        let label = small(say!("panel-response-pass-band")).color(weak);
-        plot.text(Text::new("", PlotPoint::new(band + gap, 0.02), label).anchor(side).allow_hover(false));
-        if let Some(half) = half {
-            plot.points(Points::new("", [half, 0.5]).radius(4.0).color(accent).allow_hover(false));
-            let label = response.wavelength_mm_at_half_gain.map_or_else(|| say!("panel-response-half"), in_mm);
-            // To the right of the fall, above the grid's line.
-            let (side, gap) = if half < -0.55 { (Align2::LEFT_BOTTOM, 0.1) } else { (Align2::RIGHT_BOTTOM, -0.1) };
-            let label = small(label).color(ink);
-            plot.text(Text::new("", PlotPoint::new(half + gap, 0.54), label).anchor(side).allow_hover(false));
-        }
-        let moves = plot.response().dragged() || plot.response().clicked();
-        plot.pointer_coordinate().filter(|_| moves).map(|place| place.x.clamp(RANGE.0, RANGE.1))
+    let shown = ui.scope(|ui| {
+        plot.show(ui, |plot| {
+            plot.set_plot_bounds_x(RANGE.0..=RANGE.1);
+            // Above the curve there is room for the name of a line.
+            plot.set_plot_bounds_y(if last_term.is_some() { -0.3..=1.42 } else { -0.12..=1.42 });
+            plot.vline(VLine::new("", band).color(weak).style(LineStyle::dashed_dense()).allow_hover(false));
+            if let Some((k, around)) = scale.around_thinnest() {
+                let at = libm::log10(k);
+                plot.vline(VLine::new("", at).color(ink).style(LineStyle::dotted_loose()).allow_hover(false));
+                let (side, gap) = if at > -1.6 { (Align2::RIGHT_TOP, -0.05) } else { (Align2::LEFT_TOP, 0.05) };
+                let label = small(say!("panel-response-thinnest", length = in_mm(around))).color(ink);
+                plot.text(Text::new("", PlotPoint::new(at + gap, 1.4), label).anchor(side).allow_hover(false));
+            }
+            let styles = [LineStyle::dashed_dense(), LineStyle::dotted_dense(), LineStyle::dashed_loose()];
+            for (other, style) in others.iter().zip(styles) {
+                let points = points(&|k| other.response(k));
+                plot.line(still_plot::curve("", points).stroke(Stroke::new(1.0, ink)).style(style).allow_hover(false));
+            }
+            if let Some(passes) = passes {
+                let points = points(&|k| laplacian_response(k, passes));
+                plot.line(still_plot::curve("", points).stroke(Stroke::new(2.0, red)).allow_hover(false));
+            }
+            if let Some(last) = last_term {
+                let points = points(&|k| filter.partial_response(last as usize, k));
+                plot.line(still_plot::curve("", points).stroke(Stroke::new(1.0, ink)).allow_hover(false));
+            }
+            plot.line(curve);
+            plot.vline(VLine::new("", log_k).color(accent).width(1.0).allow_hover(false));
+            let here = [log_k, filter.response(libm::exp10(log_k))];
+            plot.points(Points::new("", here).radius(5.0).filled(false).color(accent).allow_hover(false));
+            let (side, gap) = if band > -2.2 { (Align2::RIGHT_BOTTOM, -0.05) } else { (Align2::LEFT_BOTTOM, 0.05) };
+            let label = small(say!("panel-response-pass-band")).color(weak);
+            plot.text(Text::new("", PlotPoint::new(band + gap, 0.02), label).anchor(side).allow_hover(false));
+            if let Some(half) = half {
+                plot.points(Points::new("", [half, 0.5]).radius(4.0).color(accent).allow_hover(false));
+                let label = response.wavelength_mm_at_half_gain.map_or_else(|| say!("panel-response-half"), in_mm);
+                // To the right of the fall, above the grid's line.
+                let (side, gap) = if half < -0.55 { (Align2::LEFT_BOTTOM, 0.1) } else { (Align2::RIGHT_BOTTOM, -0.1) };
+                let label = small(label).color(ink);
+                plot.text(Text::new("", PlotPoint::new(half + gap, 0.54), label).anchor(side).allow_hover(false));
+            }
+            let moves = plot.response().dragged() || plot.response().clicked();
+            plot.pointer_coordinate().filter(|_| moves).map(|place| place.x.clamp(RANGE.0, RANGE.1))
+        })
     });
+    let (shown, whole) = (shown.inner, shown.response.rect);
+    let title = say!("panel-response");
+    Drawn { stem: "response", title: &title, legend: &[], whole, frame: shown.response.rect }.offer(ui);
     shown.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, sentence));
     tried.log_k = shown.inner.unwrap_or(log_k);
 }

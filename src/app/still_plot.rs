@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use egui::Vec2;
-use egui_plot::{GridMark, Plot};
+use egui_plot::{GridMark, Line, Plot, PlotPoints};
 
 use crate::language::decimal;
 
@@ -16,6 +16,11 @@ pub(super) fn still(plot: Plot<'_>) -> Plot<'_> {
         .allow_axis_zoom_drag(false)
         .allow_double_click_reset(false)
         .set_margin_fraction(Vec2::ZERO)
+}
+
+/// A curve, through each of its points at any size.
+pub(super) fn curve<'a>(name: impl Into<String>, points: impl Into<PlotPoints<'a>>) -> Line<'a> {
+    Line::new(name, points).allow_band(false)
 }
 
 /// A mark of an axis, with as many decimals as the step to the next has.

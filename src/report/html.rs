@@ -83,7 +83,7 @@ pub(super) fn write(document: &Document) -> String {
 }
 
 /// Text that is nothing but text, in elements and in attributes; its lines stay lines.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {

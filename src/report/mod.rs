@@ -15,6 +15,8 @@ pub mod words;
 
 use serde::{Deserialize, Serialize};
 
+pub(crate) use html::escaped;
+
 pub use document::{Document, Heading, Row, Subject, Table};
 pub use picture::{Picture, PictureError, Pixels, Strip};
 pub use plot::{Axis, Curve, Ink, Panel, Plot};

@@ -4,6 +4,7 @@ use super::{LISTEN, LumenApp};
 use crate::app::action::Action;
 use crate::app::notices::Kind;
 use crate::app::platform::PlatformEvent;
+use crate::app::plot_file::PlotFile;
 use crate::app::scan::{self, Told};
 use crate::app::sharing::{self, Sharing};
 use crate::app::state::{Effect, State};
@@ -164,6 +165,9 @@ impl LumenApp {
         let is_held =
             keys::moves_control(ctx) || self.panels.collapses.is_playing() || self.panels.playback.is_playing();
         self.state.follow(is_held, self.platform.link());
+        if let Some(file) = PlotFile::take(ctx) {
+            self.record.save_plot(&file, &mut self.state, &mut *self.platform, ctx);
+        }
         self.record.follow(&mut self.state, self.platform.link());
         let now = recovery::Now {
             state: &self.state,
@@ -183,7 +187,7 @@ impl LumenApp {
             self.panels.scan.scans.follow(link);
         }
         let goes_on = self.panels.all().into_iter().any(|panel| panel.goes_on(&*self.platform));
-        if goes_on || self.state.is_busy() || self.record.progress().is_some() {
+        if goes_on || self.state.is_busy() || self.record.is_busy() {
             ctx.request_repaint_after(LISTEN);
         }
     }

@@ -4,12 +4,15 @@
 pub(super) mod action;
 mod job;
 mod menu;
+mod plot;
 
 use std::sync::Arc;
 
 use egui::Ui;
 
 use super::document::Document;
+use super::platform::Files;
+use super::plot_file::{PlotFile, PlotFormat};
 use super::state::State;
 use super::views::Views;
 use crate::engine::Link;
@@ -22,12 +25,14 @@ pub use action::Action;
 pub(super) use action::Chosen;
 use job::Job;
 pub(super) use menu::menu;
+use plot::PlotJob;
 
 /// What is being drawn, and what a user has chosen for it.
 #[derive(Default)]
 pub(super) struct Record {
     device: Option<egui_wgpu::RenderState>,
     job: Option<Job>,
+    plot: Option<PlotJob>,
     chosen: Chosen,
     said: Said,
 }
@@ -57,11 +62,17 @@ impl Record {
     pub(super) fn set_device(&mut self, device: Option<&egui_wgpu::RenderState>) {
         self.device = device.cloned();
         self.job = None;
+        self.plot = None;
     }
 
     /// What a user has chosen.
     pub(super) fn chosen(&self) -> Chosen {
         self.chosen
+    }
+
+    /// Whether something is being drawn.
+    pub(super) fn is_busy(&self) -> bool {
+        self.job.is_some() || self.plot.is_some()
     }
 
     /// What is being drawn, and the part of it that is done; `None` for nothing.
@@ -102,6 +113,19 @@ impl Record {
         }
     }
 
+    /// Saves a plot.
+    pub(super) fn save_plot(&mut self, file: &PlotFile, state: &mut State, files: &mut dyn Files, ctx: &egui::Context) {
+        let stem = state.document.as_ref().map_or("lumen".to_owned(), Document::stem);
+        let name = |extension: &str| format!("{stem}-{}.{extension}", file.stem);
+        match (file.format, &self.device) {
+            (PlotFormat::Svg, _) => files.offer_file(&name("svg"), file.svg().into_bytes(), ctx),
+            (PlotFormat::Png, Some(device)) => {
+                self.plot = Some(PlotJob::begin(device, file, name("png"), ctx.theme()));
+            }
+            (PlotFormat::Png, None) => state.warn(&say!("compare-no-device")),
+        }
+    }
+
     fn begin(&self, action: Action, state: &State, document: &Document, sight: &Sight<'_>) -> Result<Job, String> {
         let device = self.device.as_ref().ok_or_else(|| say!("compare-no-device"))?;
         let begun = match action {
@@ -133,6 +157,15 @@ impl Record {
 
     /// To be called each frame: takes what was drawn and draws what comes next.
     pub(super) fn follow(&mut self, state: &mut State, link: &mut dyn Link) {
+        if let Some(plot) = &self.plot {
+            let advanced = plot.advance(state, link);
+            if !matches!(advanced, Ok(false)) {
+                self.plot = None;
+            }
+            if let Err(sentence) = advanced {
+                state.warn(&sentence);
+            }
+        }
         let Some(job) = &mut self.job else { return };
         match job.advance(state, link) {
             Ok(true) => self.job = None,

@@ -1,15 +1,16 @@
 //! What reduction does to the wire: the same input on the unreduced surface, and how the two differ.
 
 use egui::{Align, Layout, RichText, Role, Ui};
-use egui_plot::{Line, Plot, PlotPoints};
+use egui_plot::{Plot, PlotPoints};
 
 use super::action::Action;
 use super::marks;
 use super::state::{Comparing, Trial};
 use crate::app::assist::name;
 use crate::app::control::progress;
+use crate::app::plot_file::Drawn;
 use crate::app::row::{number, wrapped};
-use crate::app::still_plot::tick;
+use crate::app::still_plot::{curve, tick};
 use crate::engine::trial::TrialComparison;
 use crate::language::{decimal, tell};
 use crate::say;
@@ -67,7 +68,7 @@ fn shown(ui: &mut Ui, comparison: &TrialComparison) {
     };
     let [colour, grey] = [marks::colours(ui.visuals().dark_mode)[0], ui.visuals().weak_text_color()];
     ui.label(RichText::new(say!("trial-deviation-plot-help")).small().weak());
-    let response = Plot::new("deviation")
+    let plot = Plot::new("deviation")
         .height(120.0)
         .allow_drag(false)
         .allow_zoom(false)
@@ -76,11 +77,16 @@ fn shown(ui: &mut Ui, comparison: &TrialComparison) {
         .show_x(false)
         .include_y(0.0)
         .x_axis_formatter(tick)
-        .y_axis_formatter(tick)
-        .show(ui, |plot| {
-            plot.line(Line::new(say!("trial-noise"), points(&comparison.noise_mm)).color(grey).width(1.0));
-            let deviation = Line::new(say!("trial-deviation"), points(&comparison.deviation_mm));
-            plot.line(deviation.color(colour).width(1.5));
-        });
-    name(&response.response, Role::Image, &say!("trial-deviation-plot"));
+        .y_axis_formatter(tick);
+    let [noise, deviation] = [say!("trial-noise"), say!("trial-deviation")];
+    let shown = ui.scope(|ui| {
+        plot.show(ui, |plot| {
+            plot.line(curve(&noise, points(&comparison.noise_mm)).color(grey).width(1.0));
+            plot.line(curve(&deviation, points(&comparison.deviation_mm)).color(colour).width(1.5));
+        })
+    });
+    let title = say!("trial-deviation-plot");
+    let (frame, whole) = (shown.inner.response.rect, shown.response.rect);
+    name(&shown.inner.response, Role::Image, &title);
+    Drawn { stem: "trial", title: &title, legend: &[(&noise, grey), (&deviation, colour)], whole, frame }.offer(ui);
 }

@@ -1,9 +1,10 @@
 //! The radius along a branch: as opened, smoothed and reduced.
 
-use egui::{Align2, RichText, Role, Stroke, Ui, Visuals, WidgetInfo};
-use egui_plot::{AxisHints, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Text, VLine};
+use egui::{Align2, Color32, RichText, Role, Stroke, Ui, Visuals, WidgetInfo};
+use egui_plot::{AxisHints, HoverPosition, LineStyle, Plot, PlotPoint, PlotPoints, Text, VLine};
 
-use crate::app::still_plot::{still, tick};
+use crate::app::plot_file::Drawn;
+use crate::app::still_plot::{curve, still, tick};
 use crate::language::{decimal, tell};
 use crate::say;
 use crate::vessel::certificate::{BranchCalibre, OnSurface, StationStatus};
@@ -78,46 +79,52 @@ pub(super) fn show(
         .custom_x_axes(vec![x_axis])
         .custom_y_axes(vec![y_axis])
         .label_formatter(hover_text);
-    let shown = plot.show(ui, |plot| {
-        plot.set_plot_bounds_x(0.0..=branch.length_mm.max(1e-3));
-        plot.set_plot_bounds_y(low..=high);
-        for side in [-1.0, 1.0] {
-            for piece in pieces(branch, &branch.opened, 1.0 + side * tolerance_percent / 100.0) {
-                let line = Line::new("allowed", piece).stroke(strokes.allowed);
-                plot.line(line.style(LineStyle::dotted_dense()).allow_hover(false));
+    let shown = ui.scope(|ui| {
+        plot.show(ui, |plot| {
+            plot.set_plot_bounds_x(0.0..=branch.length_mm.max(1e-3));
+            plot.set_plot_bounds_y(low..=high);
+            for side in [-1.0, 1.0] {
+                for piece in pieces(branch, &branch.opened, 1.0 + side * tolerance_percent / 100.0) {
+                    let line = curve("allowed", piece).stroke(strokes.allowed);
+                    plot.line(line.style(LineStyle::dotted_dense()).allow_hover(false));
+                }
             }
-        }
-        let surfaces = [
-            (&branch.opened, strokes.opened),
-            (&branch.smoothed, strokes.smoothed),
-            (&branch.reduced, strokes.reduced),
-        ];
-        for (name, (of, stroke)) in names.iter().zip(surfaces) {
-            for piece in pieces(branch, of, 1.0) {
-                plot.line(Line::new(name, piece).stroke(stroke));
+            let surfaces = [
+                (&branch.opened, strokes.opened),
+                (&branch.smoothed, strokes.smoothed),
+                (&branch.reduced, strokes.reduced),
+            ];
+            for (name, (of, stroke)) in names.iter().zip(surfaces) {
+                for piece in pieces(branch, of, 1.0) {
+                    plot.line(curve(name, piece).stroke(stroke));
+                }
             }
-        }
-        if let Some(change) = branch.reduced.largest_change {
-            let line = VLine::new("", change.abscissa_mm).color(strokes.reduced.color);
-            plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
-        }
-        if let Some(at_mm) = reference_mm {
-            plot.vline(VLine::new("", at_mm).color(strokes.smoothed.color).width(1.5).allow_hover(false));
-            let (side, gap) =
-                if at_mm > branch.length_mm / 2.0 { (Align2::RIGHT_TOP, -0.01) } else { (Align2::LEFT_TOP, 0.01) };
-            let label = RichText::new(say!("vessels-reference-line")).small().color(strokes.smoothed.color);
-            let place = PlotPoint::new(at_mm + gap * branch.length_mm, high);
-            plot.text(Text::new("", place, label).anchor(side).allow_hover(false));
-        }
-        let (is_clicked, is_dragged) = (plot.response().clicked(), plot.response().dragged());
-        let at_mm = plot.pointer_coordinate()?.x.clamp(0.0, branch.length_mm);
-        match reference_mm {
-            Some(_) if is_dragged => Some(Asked::Reference(at_mm)),
-            _ if is_clicked => nearest(branch, at_mm).map(Asked::Station),
-            _ => None,
-        }
+            if let Some(change) = branch.reduced.largest_change {
+                let line = VLine::new("", change.abscissa_mm).color(strokes.reduced.color);
+                plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
+            }
+            if let Some(at_mm) = reference_mm {
+                plot.vline(VLine::new("", at_mm).color(strokes.smoothed.color).width(1.5).allow_hover(false));
+                let (side, gap) =
+                    if at_mm > branch.length_mm / 2.0 { (Align2::RIGHT_TOP, -0.01) } else { (Align2::LEFT_TOP, 0.01) };
+                let label = RichText::new(say!("vessels-reference-line")).small().color(strokes.smoothed.color);
+                let place = PlotPoint::new(at_mm + gap * branch.length_mm, high);
+                plot.text(Text::new("", place, label).anchor(side).allow_hover(false));
+            }
+            let (is_clicked, is_dragged) = (plot.response().clicked(), plot.response().dragged());
+            let at_mm = plot.pointer_coordinate()?.x.clamp(0.0, branch.length_mm);
+            match reference_mm {
+                Some(_) if is_dragged => Some(Asked::Reference(at_mm)),
+                _ if is_clicked => nearest(branch, at_mm).map(Asked::Station),
+                _ => None,
+            }
+        })
     });
+    let (shown, whole) = (shown.inner, shown.response.rect);
     let text = say!("vessels-radius-along", name = tell(&branch.label()));
+    let colours = [strokes.opened, strokes.smoothed, strokes.reduced].map(|stroke| stroke.color);
+    let legend: Vec<(&str, Color32)> = names.iter().map(String::as_str).zip(colours).collect();
+    Drawn { stem: "radius", title: &text, legend: &legend, whole, frame: shown.response.rect }.offer(ui);
     shown.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &text));
     shown.inner
 }

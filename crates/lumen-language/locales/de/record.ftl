@@ -12,6 +12,15 @@ record-clear-help = Nichts hinter der Oberfläche, um sie über anderes zu legen
 record-turntable = Drehung (APNG)...
 record-turntable-help = Die Oberfläche dreht sich einmal, als bewegtes Bild; die Farben sind die der Ansicht
 
+## Eine Kurve als Datei
+
+record-plot = Diese Kurve speichern
+record-plot-help = Als Datei für Folien und Veröffentlichungen
+record-plot-svg = Als Vektorgrafik (SVG)...
+record-plot-svg-help = Scharf in jeder Größe; Wörter bleiben Text
+record-plot-png = Als Bild (PNG)...
+record-plot-png-help = 1920 Pixel breit
+
 ## Das Blatt des Berichts
 
 record-said-kept = Fall und Bemerkung stehen nur im Bericht. Lumen vergisst sie, sobald eine andere Oberfläche geöffnet wird.

@@ -13,6 +13,15 @@ record-clear-help = Nothing behind the surface, to lay it over something else
 record-turntable = Turntable (APNG)...
 record-turntable-help = The surface turning once, as a picture that moves; the colours are those of the view
 
+## A plot as a file
+
+record-plot = Save this plot
+record-plot-help = As a file for slides and papers
+record-plot-svg = As vector graphic (SVG)...
+record-plot-svg-help = Sharp at any size; its words stay words
+record-plot-png = As picture (PNG)...
+record-plot-png-help = 1920 pixels wide
+
 ## The sheet of the report
 
 record-said-kept = Case and comment stand in the report alone. Lumen forgets them when another surface is opened.

@@ -12,6 +12,15 @@ record-clear-help = Rien derrière la surface, pour la poser sur autre chose
 record-turntable = Rotation (APNG)...
 record-turntable-help = La surface fait un tour, en image animée ; les couleurs sont celles de la vue
 
+## Un graphique en fichier
+
+record-plot = Enregistrer ce graphique
+record-plot-help = En fichier, pour des diapositives ou un article
+record-plot-svg = En image vectorielle (SVG)...
+record-plot-svg-help = Nette à toute taille ; les mots restent du texte
+record-plot-png = En image (PNG)...
+record-plot-png-help = 1920 pixels de large
+
 ## La feuille du rapport
 
 record-said-kept = Cas et remarque ne figurent que dans le rapport. Lumen les oublie dès qu'une autre surface est ouverte.

@@ -300,3 +300,52 @@ fn whoever_sets_another_reduction_takes_over_from_what_is_played() {
     harness.run_steps(4);
     assert_eq!(harness.state().state().settings.target, taken);
 }
+
+/// The numbers of an attribute in each element of this kind.
+fn numbers(svg: &str, element: &str, attribute: &str) -> Vec<Vec<f32>> {
+    let of = |part: &str| {
+        let (_, value) = part.split_once(&format!(" {attribute}=\""))?;
+        let (value, _) = value.split_once('"')?;
+        Some(value.split([' ', ',']).map(|number| number.parse().unwrap()).collect())
+    };
+    svg.split(&format!("<{element}")).skip(1).filter_map(|part| of(part.split_once("/>")?.0)).collect()
+}
+
+#[test]
+fn a_plot_is_saved_as_it_stands_in_the_window() {
+    let (mut harness, memory) = opened([1280.0, 1400.0]);
+    click(&mut harness, "Response");
+    settle(&mut harness);
+    click(&mut harness, "Save this plot");
+    click(&mut harness, "As vector graphic (SVG)...");
+    let (name, svg) = offered(&mut harness, &memory);
+    assert_eq!(name, "abdominal-aorta-response.svg");
+    let svg = String::from_utf8(svg).unwrap();
+    assert!(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\"") && svg.ends_with("</svg>\n"));
+    for words in [">Response</text>", ">100 %</text>", ">pass band</text>", ">Not for clinical decisions</text>"] {
+        assert!(svg.contains(words), "{words} in {svg}");
+    }
+    assert!(!["<script", "href", "url(http"].iter().any(|foreign| svg.contains(foreign)));
+    // The mark of half gain lies on the curve.
+    let [x, y, radius] = ["cx", "cy", "r"].map(|attribute| numbers(&svg, "circle", attribute).concat());
+    let marks = (0..x.len()).filter(|&i| radius[i] == 4.0);
+    let lines = numbers(&svg, "polyline", "points");
+    let curve = lines.iter().max_by_key(|line| line.len()).unwrap();
+    let near = |x: f32, y: f32| curve.chunks(2).map(|at| (at[0] - x).hypot(at[1] - y)).fold(f32::INFINITY, f32::min);
+    let far: Vec<f32> = marks.map(|i| near(x[i], y[i])).collect();
+    assert!(far.len() == 1 && far[0] < 1.0, "{far:?} points away");
+
+    click(&mut harness, "Save this plot");
+    click(&mut harness, "As picture (PNG)...");
+    let (name, png) = offered(&mut harness, &memory);
+    assert_eq!(name, "abdominal-aorta-response.png");
+    let mut reader = info(&png);
+    assert_eq!(reader.info().width, 1920);
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).unwrap();
+    // The curve, which is as wide as the axes, in the theme's colour.
+    let accent = harness.ctx.global_style().visuals.hyperlink_color;
+    let is_accent = |pixel: &[u8]| pixel.iter().zip(accent.to_array()).all(|(a, b)| a.abs_diff(b) < 4);
+    let drawn = pixels.chunks_exact(3).filter(|pixel| is_accent(pixel)).count();
+    assert!(drawn > 5_000, "{drawn}");
+}

@@ -1,0 +1,54 @@
+//! A plot on its way to a PNG: drawn at once, read back in a later frame.
+
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use crate::app::graphics_error::picture_error;
+use crate::app::lettering::Lettering;
+use crate::app::plot_file::PlotFile;
+use crate::app::portrait::pixels;
+use crate::app::state::State;
+use crate::engine::{Command, Frame, Link};
+use crate::render::{Picture, PictureError, ViewTarget};
+use crate::report::Pixels;
+use crate::say;
+
+/// A plot that was drawn and is read back.
+pub(super) struct PlotJob {
+    device: wgpu::Device,
+    name: String,
+    picture: Receiver<Result<Picture, PictureError>>,
+}
+
+impl PlotJob {
+    /// Draws it.
+    pub(super) fn begin(state: &egui_wgpu::RenderState, file: &PlotFile, name: String, theme: egui::Theme) -> Self {
+        let (device, queue) = (&state.device, &state.queue);
+        let (size, scale) = file.pixels(device.limits().max_texture_dimension_2d);
+        let target = ViewTarget::new(device, size[0], size[1]);
+        let mut lettering = Lettering::new(device);
+        lettering.write(device, queue, &target, scale, theme, |ui, _| file.paint(ui.painter()));
+        let (sender, picture) = channel();
+        // Whoever has cancelled meanwhile takes nothing.
+        Picture::read(&target, device, queue, move |picture| drop(sender.send(picture)));
+        Self { device: device.clone(), name, picture }
+    }
+
+    /// Hands the picture to the engine, which makes the file; whether it is with it.
+    ///
+    /// # Errors
+    /// One sentence where it does not come back.
+    pub(super) fn advance(&self, state: &mut State, link: &mut dyn Link) -> Result<bool, String> {
+        let polled = self.device.poll(wgpu::PollType::Poll);
+        polled.map_err(|error| say!("views-not-drawn", error = error.to_string()))?;
+        let picture = match self.picture.try_recv() {
+            Ok(picture) => picture.map_err(|error| say!("record-not-drawn", why = picture_error(&error)))?,
+            Err(TryRecvError::Empty) => return Ok(false),
+            Err(TryRecvError::Disconnected) => return Err(say!("record-device-gone")),
+        };
+        let Pixels { width, height, rgba } = pixels(picture);
+        let frame = Frame { caption: String::new(), width, height, rgba };
+        let command = Command::WriteFrame { name: self.name.clone(), index: 0, count: 1, has_alpha: false, frame };
+        state.ask_for_file(&self.name, command, link);
+        Ok(true)
+    }
+}
