@@ -13,6 +13,7 @@ use super::icon::{self, Icon};
 use super::row::row;
 use super::swipe::Way;
 use super::theme;
+use super::tie::Tie;
 use crate::language::{inner, parse, text};
 use crate::pipeline::settings::Settings;
 use crate::pipeline::settings::table::{self, Kind, Value};
@@ -230,6 +231,11 @@ pub(super) fn docked(ui: &mut Ui, setting: &table::Setting, settings: &mut Setti
     if setting.messages.label.is_empty() {
         return;
     }
+    let Some(tie) = Tie::of(setting.key) else { return control(ui, setting, settings, form) };
+    tie.around(ui, |ui| control(ui, setting, settings, form));
+}
+
+fn control(ui: &mut Ui, setting: &table::Setting, settings: &mut Settings, form: Form) {
     let (words, help) = (text(setting.messages.label), text(setting.messages.help));
     match setting.kind {
         Kind::Switch { at } => {

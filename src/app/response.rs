@@ -2,14 +2,17 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, Id, RichText, Role, Stroke, Ui, WidgetInfo};
-use egui_plot::{AxisHints, GridMark, HoverPosition, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine};
+use egui::{Align2, Id, Pos2, RichText, Role, Stroke, Ui, WidgetInfo};
+use egui_plot::{
+    AxisHints, GridMark, HoverPosition, LineStyle, Plot, PlotPoint, PlotPoints, PlotUi, Points, Text, VLine,
+};
 
 use super::assist::heading;
 use super::control::Setting;
 use super::plot_file::Drawn;
 use super::row::{Part, remark, wrapped};
 use super::still_plot::{self, still};
+use super::tie::Tie;
 use crate::language::{decimal, grouped};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::laplacian::{RELAXATION, laplacian_response};
@@ -285,12 +288,16 @@ fn picture(
     let visuals = ui.visuals();
     let (accent, weak) = (visuals.hyperlink_color, visuals.weak_text_color());
     let (ink, red) = (visuals.text_color(), visuals.error_fg_color);
+    let lit = Tie::lit(ui.ctx());
+    // What is lit is twice as wide.
+    let width = |tie: Tie, width: f32| if lit == Some(tie) { 2.0 * width } else { width };
     let steps = 240;
     let at = |step: i32| RANGE.0 + (RANGE.1 - RANGE.0) * f64::from(step) / f64::from(steps);
     let points = |left: &dyn Fn(f64) -> f64| -> PlotPoints<'static> {
         (0..=steps).map(|step| [at(step), left(libm::exp10(at(step)))]).collect()
     };
-    let curve = still_plot::curve("response", points(&|k| filter.response(k))).stroke(Stroke::new(2.0, accent));
+    let curve = still_plot::curve("response", points(&|k| filter.response(k)))
+        .stroke(Stroke::new(width(Tie::Response, 2.0), accent));
     let band = libm::log10(response.pass_band);
     let half = response.half_gain.map(libm::log10);
     let marks = marks(edge_length);
@@ -323,7 +330,13 @@ fn picture(
             plot.set_plot_bounds_x(RANGE.0..=RANGE.1);
             // Above the curve there is room for the name of a line.
             plot.set_plot_bounds_y(if last_term.is_some() { -0.3..=1.42 } else { -0.12..=1.42 });
-            plot.vline(VLine::new("", band).color(weak).style(LineStyle::dashed_dense()).allow_hover(false));
+            plot.vline(
+                VLine::new("", band)
+                    .color(weak)
+                    .width(width(Tie::PassBand, 1.0))
+                    .style(LineStyle::dashed_dense())
+                    .allow_hover(false),
+            );
             if let Some((k, around)) = scale.around_thinnest() {
                 let at = libm::log10(k);
                 plot.vline(VLine::new("", at).color(ink).style(LineStyle::dotted_loose()).allow_hover(false));
@@ -345,7 +358,7 @@ fn picture(
                 plot.line(still_plot::curve("", points).stroke(Stroke::new(1.0, ink)).allow_hover(false));
             }
             plot.line(curve);
-            plot.vline(VLine::new("", log_k).color(accent).width(1.0).allow_hover(false));
+            plot.vline(VLine::new("", log_k).color(accent).width(width(Tie::Wave, 1.0)).allow_hover(false));
             let here = [log_k, filter.response(libm::exp10(log_k))];
             plot.points(Points::new("", here).radius(5.0).filled(false).color(accent).allow_hover(false));
             let (side, gap) = if band > -2.2 { (Align2::RIGHT_BOTTOM, -0.05) } else { (Align2::LEFT_BOTTOM, 0.05) };
@@ -360,6 +373,11 @@ fn picture(
                 plot.text(Text::new("", PlotPoint::new(half + gap, 0.54), label).anchor(side).allow_hover(false));
             }
             let moves = plot.response().dragged() || plot.response().clicked();
+            if let Some(at) = plot.response().hover_pos() {
+                if let Some(tie) = pointed(plot, at, (band, log_k), filter) {
+                    tie.light(&plot.response().ctx);
+                }
+            }
             plot.pointer_coordinate().filter(|_| moves).map(|place| place.x.clamp(RANGE.0, RANGE.1))
         })
     });
@@ -368,6 +386,18 @@ fn picture(
     Drawn { stem: "response", title: &title, legend: &[], whole, frame: shown.response.rect }.offer(ui);
     shown.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, sentence));
     tried.log_k = shown.inner.unwrap_or(log_k);
+}
+
+/// What of the plot the pointer is at: one of the two lines, or the curve.
+fn pointed(plot: &PlotUi<'_>, at: Pos2, (band, log_k): (f64, f64), filter: &Filter) -> Option<Tie> {
+    const NEAR: f32 = 6.0;
+    let place = |x: f64, y: f64| plot.screen_from_plot(PlotPoint::new(x, y));
+    let [band, tried] = [band, log_k].map(|x| (place(x, 0.0).x - at.x).abs());
+    let k = libm::exp10(plot.plot_from_screen(at).x);
+    let curve = (place(libm::log10(k), filter.response(k)).y - at.y).abs();
+    let nearest = [(Tie::PassBand, band), (Tie::Wave, tried), (Tie::Response, curve)];
+    let nearest = nearest.into_iter().filter(|(_, away)| *away < NEAR);
+    nearest.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(tie, _)| tie)
 }
 
 /// Where the axis has its labels: at round lengths, or at powers of ten where lengths are not known.

@@ -164,6 +164,12 @@ pub(super) fn advanced(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui)) {
     head.header_response.on_hover_text(say!("panel-advanced-help"));
 }
 
+/// The paper's equations of a step, folded at first.
+pub(super) fn formulas(ui: &mut Ui, body: impl FnOnce(&mut Ui)) {
+    let head = CollapsingHeader::new(say!("panel-equations")).id_salt("equations").show_unindented(ui, body);
+    head.header_response.on_hover_text(say!("panel-equations-help"));
+}
+
 /// The number and the name of a step.
 pub(super) fn title(ui: &mut Ui, number: u32, title: &str) {
     ui.horizontal(|ui| number_and_title(ui, number, title));

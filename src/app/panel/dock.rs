@@ -10,6 +10,7 @@ use crate::app::control::{self, Change, Form, Setting};
 use crate::app::row::{number, row};
 use crate::app::state::State;
 use crate::app::theme;
+use crate::app::tie::Tie;
 use crate::language::{decimal, tell, text};
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::table::{self, Kind};
@@ -71,7 +72,9 @@ fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings, form: Form) {
         None => {
             let percent = come_to(state, *target).percent(entering(state).unwrap_or(0));
             let safe = state.safe().and_then(|safe| safe.percent);
-            target_row(ui, "reduction", percent, target, |row, ui, percent| row.show_docked(ui, percent, form, safe));
+            target_row(ui, "reduction", percent, target, |row, ui, percent| {
+                Tie::Reduction.around(ui, |ui| row.show_docked(ui, percent, form, safe))
+            });
         }
     }
 }

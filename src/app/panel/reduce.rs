@@ -6,11 +6,11 @@ use super::{come_to, entering, measured, set};
 use crate::app::action::Action;
 use crate::app::assist::name;
 use crate::app::control::{self, reads_comma};
-use crate::app::error_plot;
-use crate::app::row::{Fold, advanced, remark, row};
+use crate::app::row::{Fold, advanced, formulas, remark, row};
 use crate::app::state::State;
 use crate::app::swipe::Way;
 use crate::app::views::Views;
+use crate::app::{equations, error_plot};
 use crate::language::{decimal, tell};
 use crate::pipeline::report::AutoReport;
 use crate::pipeline::settings::table;
@@ -44,6 +44,7 @@ fn reduction(ui: &mut Ui, state: &State, title: &str, settings: &mut Settings) {
         remark(ui, &format!("{}.", tell(&shortfall.message())));
     }
     error_plot::section(ui, state, &mut settings.target);
+    formulas(ui, |ui| equations::reduction(ui, settings));
     advanced(ui, title, |ui| decimation(ui, state, settings));
 }
 

@@ -5,10 +5,10 @@ use egui::{Button, ComboBox, RichText, Role, Ui};
 use super::{measured, set};
 use crate::app::action::Action;
 use crate::app::assist::name;
-use crate::app::row::{Fold, advanced, remark, row};
+use crate::app::row::{Fold, advanced, formulas, remark, row};
 use crate::app::state::State;
 use crate::app::views::Views;
-use crate::app::{control, response, theme};
+use crate::app::{control, equations, response, theme};
 use crate::language::tell;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::table::{self, Kind};
@@ -59,6 +59,7 @@ fn preset_list(ui: &mut Ui, smoothing: &mut Smoothing) {
 fn smoothing(ui: &mut Ui, title: &str, settings: &mut Settings, state: &State, asked: &mut Vec<Action>) {
     preset_list(ui, &mut settings.smoothing);
     effect(ui, &settings.smoothing, state, asked);
+    formulas(ui, |ui| equations::smoothing(ui, settings));
     advanced(ui, title, |ui| filter(ui, settings));
 }
 

@@ -424,3 +424,21 @@ panel-classes-help = Simple: on no feature edge. Complex: the surface is no disc
 
 panel-work-reading = Reading
 panel-work-comparing = Comparing
+
+## The equations
+
+panel-equations = Equations
+panel-equations-help = The equations of the paper. Point at a symbol in colour: its slider and its mark in the response light up, and the other way round.
+panel-equation-1 = How far a vertex lies from the mean of its neighbours; its weights w add up to 1.
+panel-equation-2 = The same for all vertices at once, with K = I − W.
+panel-equation-3 = Smoothing: a function of K, applied to the coordinates.
+panel-equation-4 = The surface is a sum of waves e. Each stays by the part f of its eigenvalue k: near 0 for long waves, at most 2 for the shortest.
+panel-equation-5 = The response: Chebyshev polynomials T up to the degree N. θ stands for the pass band, moved by a little so that the pass band itself is kept.
+panel-equation-6 = The window { $window }: without these weights a series that ends would ripple.
+panel-equation-7 = The reduction: the part of the m triangles that is gone, in percent; m' are left.
+panel-tied-pass-band = Pass band: { $value }
+panel-tied-iterations = Iterations: { $count }
+panel-tied-window = Window: { $window }
+panel-tied-reduction = Reduction
+panel-tied-wave = Eigenvalue of a wave; the plot marks the one that you try
+panel-tied-response = Response: the part of a wave that stays

@@ -446,3 +446,21 @@ panel-stage-safe = Recherche du taux sûr
 
 panel-sample-aorta = Aorte abdominale
 panel-sample-coronary = Artères coronaires
+
+## Les équations
+
+panel-equations = Équations
+panel-equations-help = Les équations de l'article. Pointez un symbole en couleur : son curseur et son repère dans la réponse s'allument, et inversement.
+panel-equation-1 = À quelle distance un sommet se trouve de la moyenne de ses voisins ; la somme de ses poids w est 1.
+panel-equation-2 = La même chose pour tous les sommets à la fois, avec K = I − W.
+panel-equation-3 = Le lissage : une fonction de K, appliquée aux coordonnées.
+panel-equation-4 = La surface est une somme d'ondes e. De chacune reste la part f de sa valeur propre k : près de 0 pour les ondes longues, au plus 2 pour les plus courtes.
+panel-equation-5 = La réponse : des polynômes de Tchebychev T jusqu'au degré N. θ représente la bande passante, un peu décalée pour qu'elle soit elle-même conservée.
+panel-equation-6 = La fenêtre { $window } : sans ces poids, une série qui finit oscillerait.
+panel-equation-7 = La réduction : la part des m triangles qui disparaît, en pour cent ; il en reste m'.
+panel-tied-pass-band = Bande passante : { $value }
+panel-tied-iterations = Itérations : { $count }
+panel-tied-window = Fenêtre : { $window }
+panel-tied-reduction = Réduction
+panel-tied-wave = Valeur propre d'une onde ; le graphique marque celle que vous essayez
+panel-tied-response = Réponse : la part d'une onde qui reste

@@ -229,3 +229,35 @@ fn the_words_are_explained_and_the_papers_named() {
     click(&mut harness, "About");
     assert!(says(&harness, "Mesh Optimization of Vessel Surface Model"));
 }
+
+#[test]
+fn a_symbol_of_an_equation_lights_its_slider_and_the_slider_lights_the_symbol() {
+    let (mut harness, memory) = app([1280.0, 1600.0]);
+    settle(&mut harness);
+    memory.borrow_mut().runs = false;
+    let head = harness.query_all_by_role_and_label(Role::DisclosureTriangle, "Equations").next().unwrap();
+    head.click();
+    harness.run_steps(12);
+    let equation = harness.get_by_role_and_label(Role::Image, "(3) y' = f(K) y").rect();
+    let (band, slider) = ("k_PB = 2 (1 − cos θ)", harness.get_by_role_and_label(Role::Slider, "Pass band").rect());
+    let symbol = harness.query_all_by_label_contains(band).next().unwrap().rect();
+    let away = egui::pos2(640.0, 20.0);
+    let mut picture = |at: egui::Pos2| {
+        harness.hover_at(at);
+        harness.run_steps(4);
+        let picture = harness.render().unwrap();
+        picture.enumerate_pixels().map(|(x, y, pixel)| (egui::pos2(x as f32, y as f32), pixel.0)).collect()
+    };
+    let rest: Vec<(egui::Pos2, [u8; 4])> = picture(away);
+    let differs = |a: &[(egui::Pos2, [u8; 4])], b: &[(egui::Pos2, [u8; 4])], rect: egui::Rect| {
+        a.iter().zip(b).filter(|((at, a), (_, b))| rect.contains(*at) && a != b).count()
+    };
+    // The first letter of the line is that of the pass band.
+    let lit = picture(symbol.left_center() + egui::vec2(6.0, 0.0));
+    assert!(differs(&rest, &lit, slider.expand(3.0)) > 100, "the slider is ringed");
+    assert_eq!(differs(&rest, &lit, equation), 0, "the response is another thing");
+    let back = picture(slider.center());
+    assert!(differs(&rest, &back, symbol) > 20, "the symbol is lit");
+    assert_eq!(differs(&rest, &back, equation), 0);
+    assert_eq!(differs(&rest, &picture(away), symbol), 0);
+}
