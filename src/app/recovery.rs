@@ -18,6 +18,7 @@ use crate::phantom::Sample;
 use crate::pipeline::settings::Settings;
 use crate::render::Camera;
 use crate::say;
+use crate::sharing::Eye;
 
 /// The version of what is kept; another is not read.
 const VERSION: u32 = 1;
@@ -62,14 +63,6 @@ enum Surface {
     File { name: String, unit: Option<Unit> },
 }
 
-/// From where it was looked at.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Eye {
-    target_mm: [f32; 3],
-    rotation: [f32; 4],
-    distance_mm: f32,
-}
-
 impl Session {
     /// What was kept, if this version can use it.
     fn read(text: &str) -> Option<Self> {
@@ -84,18 +77,17 @@ impl Session {
     }
 }
 
-impl Eye {
-    fn of(camera: &Camera) -> Self {
-        let Camera { target, rotation, distance, .. } = camera;
-        Self { target_mm: target.to_array(), rotation: rotation.to_array(), distance_mm: *distance }
-    }
+/// From where a camera looks.
+pub(super) fn eye_of(camera: &Camera) -> Eye {
+    let Camera { target, rotation, distance, .. } = camera;
+    Eye { target_mm: target.to_array(), rotation: rotation.to_array(), distance_mm: *distance }
+}
 
-    /// Moves the camera there, unless that is nowhere.
-    fn look(self, camera: &mut Camera) {
-        let rotation = glam::Quat::from_array(self.rotation);
-        if rotation.is_normalized() && self.distance_mm > 0.0 && self.target_mm.iter().all(|x| x.is_finite()) {
-            *camera = Camera { target: self.target_mm.into(), rotation, distance: self.distance_mm, ..*camera };
-        }
+/// Moves a camera there, unless that is nowhere.
+pub(super) fn look_from(eye: Eye, camera: &mut Camera) {
+    if eye.is_somewhere() {
+        let rotation = glam::Quat::from_array(eye.rotation).normalize();
+        *camera = Camera { target: eye.target_mm.into(), rotation, distance: eye.distance_mm, ..*camera };
     }
 }
 
@@ -279,7 +271,7 @@ impl Recovery {
     /// Moves the camera, which has found the new surface, to where it stood with it before.
     pub(super) fn look(&mut self, camera: &mut Camera) {
         if let Some(eye) = self.eye.take() {
-            eye.look(camera);
+            look_from(eye, camera);
         }
     }
 
@@ -352,7 +344,7 @@ impl Recovery {
         let returning = self.returning.as_ref();
         let surface = returning.map(|returning| returning.surface.clone()).or_else(|| surface(state));
         // The view of a sample that stands in for a file is not the file's.
-        let eye = returning.map(|returning| returning.eye).or(self.eye).unwrap_or(Eye::of(camera));
+        let eye = returning.map(|returning| returning.eye).or(self.eye).unwrap_or(eye_of(camera));
         let (settings, mappings) = (state.history.present().settings.clone(), trial.known_mappings().clone());
         (settings, eye, surface, self.keeps_surface, self.axes.clone(), mappings, language)
     }

@@ -3,13 +3,15 @@
 
 use super::document::Document;
 use super::platform::{Files, Sharing as PageSharing};
+use super::recovery::{eye_of, look_from};
 use super::state::State;
 use crate::engine::{Link as EngineLink, Source};
 use crate::io::Unit;
 use crate::pipeline::settings::Settings;
+use crate::render::Camera;
 use crate::say;
 use crate::sharing::{
-    Link, Measured, SharedSettings, SharedSurface, ShortDigest, read_settings_and, write_settings_and,
+    Eye, Link, Measured, SharedSettings, SharedSurface, ShortDigest, read_settings_and, write_settings_and,
 };
 
 /// What a settings file ends in.
@@ -24,6 +26,8 @@ pub(super) fn is_settings(name: &str) -> bool {
 #[derive(Default)]
 pub(super) struct Sharing {
     followed: Option<Link>,
+    /// From where to look at what a link has opened.
+    eye: Option<Eye>,
 }
 
 impl Sharing {
@@ -39,12 +43,25 @@ impl Sharing {
         files.offer_file(&name, write_settings_and(&shared(state), measured).into_bytes(), ctx);
     }
 
+    /// Where what is open can be seen by others as it is seen now: the page, the surface, the settings and the camera.
+    pub(super) fn link(state: &State, camera: &Camera, page: &dyn PageSharing) -> Option<(String, SharedSurface)> {
+        let (address, surface) = (page.address()?, surface(state)?);
+        let link = Link { surface, shared: shared(state), eye: Some(eye_of(camera).rounded()) };
+        Some((format!("{address}#{}", link.fragment()), surface))
+    }
+
+    /// Moves the camera to where a link looks from.
+    pub(super) fn look(&mut self, camera: &mut Camera) {
+        if let Some(eye) = self.eye.take() {
+            look_from(eye, camera);
+        }
+    }
+
     /// Copies a link with the settings and the file's digits.
-    pub(super) fn copy_link(state: &mut State, page: &dyn PageSharing, ctx: &egui::Context) {
-        match (page.address(), surface(state)) {
-            (Some(address), Some(surface)) => {
-                let link = Link { surface, shared: shared(state) };
-                ctx.copy_text(format!("{address}#{}", link.fragment()));
+    pub(super) fn copy_link(state: &mut State, camera: &Camera, page: &dyn PageSharing, ctx: &egui::Context) {
+        match Self::link(state, camera, page) {
+            Some((link, surface)) => {
+                ctx.copy_text(link);
                 let text = match surface {
                     SharedSurface::File(_) => say!("app-link-copied-file"),
                     SharedSurface::Sample(_) => say!("app-link-copied-sample"),
@@ -87,6 +104,7 @@ impl Sharing {
         if surface(state) == Some(followed.surface) {
             apply(followed.shared.clone(), state);
             let is_read_again = take_unit(followed.shared.unit, state, link);
+            self.eye = followed.eye;
             state.tell(&say!("app-link-taken"));
             self.followed = is_read_again.then_some(followed);
             return;
@@ -129,6 +147,7 @@ impl Sharing {
                 // Read in another unit, it is opened once more.
                 if !take_unit(followed.shared.unit, state, link) {
                     state.tell(&say!("app-link-same"));
+                    self.eye = followed.eye;
                     self.followed = None;
                 }
             }

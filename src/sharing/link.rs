@@ -8,7 +8,7 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use super::{SharedSettings, ShortDigest};
+use super::{Eye, SharedSettings, ShortDigest};
 use crate::io::Unit;
 use crate::language::tell;
 use crate::phantom::Sample;
@@ -37,6 +37,8 @@ pub struct Link {
     pub surface: SharedSurface,
     /// What is made of it.
     pub shared: SharedSettings,
+    /// From where it is looked at; `None` for from where all of it is seen.
+    pub eye: Option<Eye>,
 }
 
 /// Why a link was not understood.
@@ -84,6 +86,9 @@ impl Link {
         if let Some(unit) = self.shared.unit {
             pairs.push(("unit", unit.to_string()));
         }
+        if let Some(eye) = self.eye {
+            pairs.push(("eye", eye.to_string()));
+        }
         let settings = &self.shared.settings;
         let mut add = |in_link, is_told: fn(&Setting, Value) -> bool| {
             let rows = table::all().filter(|setting| setting.in_link == in_link);
@@ -119,9 +124,10 @@ impl Link {
             None => SharedSurface::File(pairs.read("file")?),
         };
         let unit = pairs.find("unit").map(|value| read::<Unit>("unit", value)).transpose()?;
+        let eye = pairs.find("eye").map(|value| read::<Eye>("eye", value)).transpose()?;
         let mut settings = Settings::default();
         pairs.read_settings(&mut settings, true)?;
-        Ok(Self { surface, shared: SharedSettings { unit, settings } })
+        Ok(Self { surface, shared: SharedSettings { unit, settings }, eye })
     }
 }
 
@@ -203,7 +209,7 @@ mod tests {
     use crate::pipeline::settings::{Keep, Target};
 
     fn example() -> Link {
-        Link { surface: SharedSurface::File(Digest::of(b"abc").short()), shared: SharedSettings::default() }
+        Link { surface: SharedSurface::File(Digest::of(b"abc").short()), shared: SharedSettings::default(), eye: None }
     }
 
     /// A value of a setting as a link has it; `None` where it has none.
@@ -262,8 +268,17 @@ mod tests {
             any::<[u8; 4]>().prop_map(|bytes| SharedSurface::File(Digest::of(&bytes).short())),
             prop::sample::select(Sample::ALL.to_vec()).prop_map(SharedSurface::Sample)
         ];
-        (surface, unit, any_settings())
-            .prop_map(|(surface, unit, settings)| Link { surface, shared: SharedSettings { unit, settings } })
+        let eye =
+            prop::option::of((prop::array::uniform3(-1e4..1e4f32), prop::array::uniform3(-1.0..1.0f32), 1e-3..1e4f32));
+        let seen = |(target_mm, [a, b, c], distance_mm): ([f32; 3], [f32; 3], f32)| {
+            let rotation = glam::Quat::from_euler(glam::EulerRot::XYZ, a, b, c).to_array();
+            Eye { target_mm, rotation, distance_mm }.rounded()
+        };
+        (surface, unit, any_settings(), eye).prop_map(move |(surface, unit, settings, eye)| Link {
+            surface,
+            shared: SharedSettings { unit, settings },
+            eye: eye.map(seen),
+        })
     }
 
     proptest! {
@@ -338,6 +353,12 @@ mod tests {
             said(&whole.replace("reduction=auto", "reduction=90.04")),
             "The link cannot be read: \"90.04\" is no value for \"reduction\"."
         );
+        for eye in ["1,2,3", "0,0,0,0,0,0,1,0", "0,0,0,0,0,0,2,5", "0,0,NaN,0,0,0,1,5", "0,0,0,0,0,0,1,5,6"] {
+            assert_eq!(
+                said(&format!("{whole}&eye={eye}")),
+                format!("The link cannot be read: \"{eye}\" is no value for \"eye\".")
+            );
+        }
         for rate in ["-1", "100", "1e300", "NaN"] {
             let error = Link::parse(&whole.replace("reduction=auto", &format!("reduction={rate}"))).unwrap_err();
             assert!(matches!(error, LinkError::Range(_)), "{rate}: {error}");

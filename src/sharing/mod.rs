@@ -5,6 +5,7 @@
 //! has measured on it ([`measures`]).
 
 mod digest;
+mod eye;
 mod link;
 pub mod measures;
 mod settings_file;
@@ -15,6 +16,7 @@ use crate::io::Unit;
 use crate::pipeline::settings::Settings;
 
 pub use digest::{Digest, Digesting, NoDigest, ShortDigest};
+pub use eye::Eye;
 pub use link::{Link, LinkError, SharedSurface, changed_settings};
 pub use settings_file::{
     Measured, SettingsFileError, read_settings, read_settings_and, write_settings, write_settings_and,

@@ -147,8 +147,11 @@ fn hear_links(tell: impl Fn(PlatformEvent) + 'static) {
         let fragment = page.location().hash().unwrap_or_default();
         if fragment.len() > 1 {
             tell(PlatformEvent::Linked { fragment });
-            // Where that is refused, a reload follows the link once more.
-            let _ = without_fragment(&page);
+            // Where that is refused, a reload follows the link once more; so it is in a part of another page, which keeps
+            // nothing.
+            if address::asked("embed").is_none() {
+                let _ = without_fragment(&page);
+            }
         }
     });
     let look_now: &js_sys::Function = look.as_ref().unchecked_ref();
@@ -279,7 +282,7 @@ impl Files for Browser {
 
 impl Storage for Browser {
     fn store(&mut self) -> Option<&mut dyn Store> {
-        Some(self)
+        (!self.is_embedded()).then_some(self as &mut dyn Store)
     }
 }
 
@@ -301,6 +304,11 @@ impl Screen for Browser {
 
     fn prefers_less_motion(&self) -> bool {
         matches_media("(prefers-reduced-motion: reduce)")
+    }
+
+    /// `?embed` at the end of the page's address.
+    fn is_embedded(&self) -> bool {
+        address::asked("embed").is_some()
     }
 
     fn has_finger(&self) -> bool {

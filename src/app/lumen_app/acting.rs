@@ -225,7 +225,7 @@ impl LumenApp {
             Action::Unfold(part) => part.unfold(ctx),
             Action::Lesson(action) => self.act_on_lesson(action, ctx),
             Action::SaveSettings => Sharing::save(state, &mut *self.platform, ctx),
-            Action::CopyLink => Sharing::copy_link(state, &*self.platform, ctx),
+            Action::CopyLink => Sharing::copy_link(state, &self.views.camera, &*self.platform, ctx),
             Action::Record(action) => {
                 if action == record::Action::Describe {
                     self.sheet = Some(Sheet::Report);

@@ -1,15 +1,18 @@
 //! Where everything stands in the window: bars, panels, views and what lies over them.
 
-use egui::{CentralPanel, Frame, Margin, Panel, Ui};
+use egui::{CentralPanel, Frame, Hyperlink, Margin, Panel, RichText, Ui};
 
 use super::LumenApp;
 use crate::app::action::Action;
 use crate::app::drawer::Content;
 use crate::app::mode::{Beside, Mode, Now, Place};
+use crate::app::sharing::Sharing;
 use crate::app::state::State;
 use crate::app::views::{Clicked, Over, Subject};
 use crate::app::{bar, collapses, invitation, panel, row, theme, verdict};
 use crate::pipeline::settings::Settings;
+use crate::say;
+use crate::sharing::SharedSurface;
 
 /// From this width on there is room for a plot beside the views while someone presents, in points.
 const ROOM_TO_PRESENT: f32 = 800.0;
@@ -21,7 +24,8 @@ impl LumenApp {
         let mut asked = Vec::new();
         let (mode, is_narrow, is_stacked) = (self.mode(), self.is_narrow, self.is_stacked);
         let (entries, keeps_surface) = (self.entries(mode), self.recovery.keeps(&mut *self.platform));
-        Panel::top("top").frame(bar).exact_size(theme::row(ui.ctx(), 36.0) + 12.0).show(ui, |ui| {
+        let is_embedded = self.platform.is_embedded();
+        let mut top = |ui: &mut Ui| {
             let shown = bar::Shown {
                 mode,
                 entries: &entries,
@@ -32,7 +36,11 @@ impl LumenApp {
                 record: self.record.chosen(),
             };
             bar::top(ui, &self.state, &self.views, shown, &mut asked);
-        });
+        };
+        // A part of another page opens and saves nothing.
+        if !is_embedded {
+            Panel::top("top").frame(bar).exact_size(theme::row(ui.ctx(), 36.0) + 12.0).show(ui, &mut top);
+        }
         let inside = ui.available_width() - bar.inner_margin.sum().x;
         let notice = bar::notice(ui, &self.state, &self.views, is_narrow, inside);
         let height = notice.as_ref().map_or(0.0, |notice| notice.size().y).max(theme::row(ui.ctx(), 28.0));
@@ -80,7 +88,7 @@ impl LumenApp {
         let takes_panel = takes_panel.filter(|_| mode == Mode::Method);
         let part = if feet.is_empty() { 0.45 } else { 0.35 };
         self.side(ui, mode, takes_panel, part, &mut asked);
-        if mode == Mode::Method && takes_panel.is_none() {
+        if mode == Mode::Method && takes_panel.is_none() && !is_embedded {
             let strip = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 4));
             Panel::top("verdict").frame(strip).exact_size(verdict::height(ui.ctx(), is_narrow) + 8.0).show(ui, |ui| {
                 verdict::show(ui, &self.state, self.views.options, is_narrow, &mut asked);
@@ -146,7 +154,7 @@ impl LumenApp {
         let of_mode = index_of_mode.filter(|&index| self.panels.all()[index].replaces_method());
         let instead = of_mode.or(taken_by);
         // Who presents sees no method; the trial and a scan cannot be used without.
-        if self.presenter.is_on() && instead.is_none() {
+        if (self.presenter.is_on() || self.platform.is_embedded()) && instead.is_none() {
             return self.presented(ui, mode);
         }
         let content = match instead {
@@ -235,14 +243,25 @@ impl LumenApp {
         let margin = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
         Panel::bottom("dock").frame(margin).show(ui, |ui| {
             row::docked(ui, |ui| self.dock(ui));
+            if let Some((link, _)) = self.whole() {
+                let whole = Hyperlink::from_label_and_url(RichText::new(say!("app-whole")).small(), link);
+                ui.add(whole.open_in_new_tab(true)).on_hover_text(say!("app-whole-help"));
+            }
         });
-        let has_response = mode == Mode::Method && self.state.settings.smoothing.iterations > 0;
+        let has_response =
+            self.presenter.is_on() && mode == Mode::Method && self.state.settings.smoothing.iterations > 0;
         if has_response && ui.available_width() >= ROOM_TO_PRESENT {
             let width = 0.36 * ui.available_width();
             Panel::right("response").frame(margin).exact_size(width).show(ui, |ui| {
                 panel::present_response(ui, &self.state);
             });
         }
+    }
+
+    /// The address of the whole program with what is shown here, where this is a part of another page.
+    fn whole(&self) -> Option<(String, SharedSurface)> {
+        let is_part = self.platform.is_embedded();
+        is_part.then(|| Sharing::link(&self.state, &self.views.camera, &*self.platform)).flatten()
     }
 
     /// The panels, to be changed, and what they may look at.
@@ -286,6 +305,7 @@ impl LumenApp {
                     self.views.look_first(self.state.document.as_ref(), keep);
                     self.recovery.look(&mut self.views.camera);
                 }
+                self.sharing.look(&mut self.views.camera);
                 for filling in self.panels.filling_mut() {
                     filling.release(&self.state, &mut self.views);
                 }
@@ -294,7 +314,8 @@ impl LumenApp {
                 }
                 let mut asked = Vec::from_iter(self.show_views(ui));
                 // Who learns or presents has a surface to look at.
-                let is_free = self.panels.lesson.given().is_none() && !self.presenter.is_on();
+                let is_free =
+                    self.panels.lesson.given().is_none() && !self.presenter.is_on() && !self.platform.is_embedded();
                 if self.invites && is_free && self.state.shows_sample() {
                     invitation::show(ui, self.views.first(), &mut asked);
                 }

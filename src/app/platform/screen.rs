@@ -24,6 +24,12 @@ pub trait Screen {
         false
     }
 
+    /// Whether the window is a part of somebody else's page, which shows one thing: views and sliders, nothing that opens,
+    /// saves or keeps.
+    fn is_embedded(&self) -> bool {
+        false
+    }
+
     /// Whether what points is a finger, as on a phone or a tablet.
     fn has_finger(&self) -> bool {
         false

@@ -60,6 +60,8 @@ pub struct Memory {
     pub kept: Option<Kept>,
     /// The address that a link begins with, where there is one.
     pub address: Option<String>,
+    /// Whether the window is a part of somebody else's page.
+    pub is_embedded: bool,
 }
 
 /// What outlives the app.
@@ -286,6 +288,10 @@ impl Screen for MemoryPlatform {
 
     fn prefers_less_motion(&self) -> bool {
         !self.memory.borrow().likes_motion
+    }
+
+    fn is_embedded(&self) -> bool {
+        self.memory.borrow().is_embedded
     }
 
     fn has_finger(&self) -> bool {

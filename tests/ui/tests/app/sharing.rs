@@ -1,18 +1,20 @@
 //! Settings for others: what a link says to whoever follows it, and the settings file.
 
+use egui::accesskit::Role;
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::io::Unit;
 use lumen::phantom::Sample;
 use lumen::pipeline::settings::{Keep, Settings, Target};
-use lumen::sharing::{Digest, Link, SharedSettings, SharedSurface, write_settings};
-use lumen_ui_tests::{DESKTOP, Kept, offered, page, page_in_full, settle};
+use lumen::sharing::{Digest, Eye, Link, SharedSettings, SharedSurface, write_settings};
+use lumen_ui_tests::{DESKTOP, Kept, offered, page, page_in_full, says, settle};
 
 use crate::recovery::{choose, notice, settings_at, tell, vessel};
 
 /// A link to a surface, as the platform reports it.
 fn link(surface: SharedSurface, unit: Option<Unit>, settings: Settings) -> PlatformEvent {
-    let link = Link { surface, shared: SharedSettings { unit, settings } };
+    let link = Link { surface, shared: SharedSettings { unit, settings }, eye: None };
     PlatformEvent::Linked { fragment: format!("#{}", link.fragment()) }
 }
 
@@ -41,7 +43,7 @@ fn a_link_is_copied_and_says_to_another_whether_it_is_the_same_file() {
     assert!(notice(&harness).starts_with("The link was copied."), "{}", notice(&harness));
 
     let shared = SharedSettings { unit: None, settings: half() };
-    let link = Link { surface: SharedSurface::File(digest), shared };
+    let link = Link { surface: SharedSurface::File(digest), shared, eye: None };
     let fragment = format!("#{}", link.fragment());
     let (mut harness, memory) = page(DESKTOP, Kept::default());
     memory.borrow_mut().events.push_back(PlatformEvent::Linked { fragment: fragment.clone() });
@@ -162,4 +164,48 @@ fn a_sample_of_fewer_triangles_is_no_surface_of_a_link() {
     tell(&mut harness, &memory, link(SharedSurface::Sample(Sample::Aorta), None, half()));
     assert!(notice(&harness).starts_with(fewer), "{}", notice(&harness));
     assert_eq!(harness.state().state().settings, half());
+}
+
+/// The link that was copied, or that a control leads to.
+fn commands(harness: &Harness<'_, LumenApp>) -> Vec<String> {
+    let said = harness.output().platform_output.commands.iter();
+    said.filter_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text.clone()),
+        egui::OutputCommand::OpenUrl(open) => Some(open.url.clone()),
+        _ => None,
+    })
+    .collect()
+}
+
+#[test]
+fn a_part_of_another_page_has_the_sliders_and_the_view_of_its_link_and_a_way_to_the_whole() {
+    let (mut harness, memory) = page_in_full(DESKTOP, Kept::default());
+    settle(&mut harness);
+    let sample = SharedSurface::Sample(Sample::Coronary);
+    let shared = SharedSettings { unit: None, settings: half() };
+    let rotation = [0.0, 0.0, 0.6, 0.8];
+    let eye = Eye { target_mm: [10.0, -5.0, 20.0], rotation, distance_mm: 150.0 };
+    assert_eq!(eye.rounded(), eye);
+    let fragment = Link { surface: sample, shared, eye: Some(eye) }.fragment();
+    {
+        let mut memory = memory.borrow_mut();
+        (memory.is_embedded, memory.kept) = (true, None);
+        memory.address = Some("https://a.example/lumen/".to_owned());
+    }
+    tell(&mut harness, &memory, PlatformEvent::Linked { fragment: format!("#{fragment}") });
+    settle(&mut harness);
+    harness.run_steps(3);
+    for slider in ["Pass band", "Iterations", "Reduction"] {
+        assert!(harness.query_by_role_and_label(Role::Slider, slider).is_some(), "{slider}");
+    }
+    for button in ["Open...", "Save", "Copy link", "Show vessels"] {
+        assert!(harness.query_by_role_and_label(Role::Button, button).is_none(), "{button}");
+    }
+    assert!(says(&harness, "Not for clinical decisions") && !says(&harness, "Drop a vessel here"));
+    let camera = harness.state().camera();
+    assert_eq!((camera.target.to_array(), camera.distance), (eye.target_mm, eye.distance_mm));
+    assert!(camera.rotation.to_array().iter().zip(rotation).all(|(a, b)| (a - b).abs() < 1e-3));
+    harness.get_by_label("Open in Lumen").click();
+    harness.step();
+    assert_eq!(commands(&harness), [format!("https://a.example/lumen/#{fragment}")]);
 }
