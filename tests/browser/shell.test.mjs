@@ -134,3 +134,25 @@ test("the page fits a telephone", async (t) => {
   assert.deepEqual([width, height], [360, 740]);
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360);
 });
+
+test("as a part of another page it shows views and sliders alone, and keeps nothing", async (t) => {
+  const { page, address, wrong } = await openApp(t, browser, { query: "?samples=10000" });
+  await settled(page);
+  await twin(page, "button", "Open...").waitFor({ state: "attached" });
+  await page.route("**/lecture.html", (route) =>
+    route.fulfill({
+      contentType: "text/html",
+      body: `<!doctype html><title>A lecture</title><iframe src="${address}?embed&samples=10000" width="900" height="600"></iframe>`,
+    }),
+  );
+  await page.goto(`${address}lecture.html`);
+  const twins = page.frameLocator("iframe").locator("#twins");
+  for (const name of ["Pass band", "Iterations", "Reduction"]) {
+    await twins.getByRole("slider", { name, exact: true }).waitFor({ state: "attached", timeout: 60_000 });
+  }
+  await twins.getByText(/^Not for clinical decisions$/).first().waitFor({ state: "attached" });
+  for (const name of ["Open...", "Save", "Sample"]) {
+    assert.equal(await twins.getByRole("button", { name, exact: true }).count(), 0, name);
+  }
+  assert.deepEqual(wrong, []);
+});

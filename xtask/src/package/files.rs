@@ -58,8 +58,8 @@ fn copyright() -> Result<Vec<u8>> {
 }
 
 /// The files of `dist` and those that tell a host its headers, sorted.
-pub(super) fn site(dist: &Path) -> Result<Vec<Packed>> {
-    let mut files = headers::files();
+pub(super) fn site(dist: &Path, embed_in: &[String]) -> Result<Vec<Packed>> {
+    let mut files = headers::files(embed_in)?;
     for path in files_below(dist)? {
         let name = path.strip_prefix(dist)?.to_string_lossy().replace('\\', "/");
         files.push(Packed::new(name, read_file(&path)?));

@@ -32,6 +32,9 @@ pub(crate) struct Options {
     /// The browser app to pack, in place of a build.
     #[arg(long)]
     dist: Option<PathBuf>,
+    /// Let pages of this origin, such as https://lectures.example, have the browser app as a part; may be given more than once.
+    #[arg(long, value_name = "ORIGIN")]
+    embed_in: Vec<String>,
     /// Install the program from the checkout, and the Debian package in a clean Debian; run both. As root, with debootstrap.
     #[arg(long = "try")]
     tries: bool,
@@ -68,7 +71,7 @@ pub(crate) fn package(options: &Options) -> Result<()> {
         write(&format!("{folder}.tar.gz"), &archive::tar_gz(&files, &folder)?)
     })?;
     step("Make the archive of the browser app", || {
-        write(&format!("lumen-{VERSION}-web.zip"), &archive::zip(&files::site(&dist)?)?)
+        write(&format!("lumen-{VERSION}-web.zip"), &archive::zip(&files::site(&dist, &options.embed_in)?)?)
     })?;
     if options.tries {
         step("Install the program from the checkout", install)?;
