@@ -198,6 +198,16 @@ messages! {
                 _ => format!("{} are too short or too coarse to be measured.", grouped(count)),
             }
         },
+        /// No vessel was found at some open ends.
+        "vessels-open-ends" OpenEnds {
+            /// How many.
+            count: usize,
+        } => {
+            match count {
+                1 => "No vessel was found at one open end.".to_owned(),
+                _ => format!("No vessel was found at {} open ends.", grouped(count)),
+            }
+        },
     }
 }
 
@@ -265,6 +275,9 @@ pub fn summary(found: &Result<Certificate, CalibreError>) -> CalibreSummary {
     if let Some(parts) = unmeasured(&found.coverage).filter(|_| measured > 0) {
         sentences.push(CalibreFinding::MeasuredOver { percent: found.coverage.percent().floor(), parts });
     }
+    if found.openings_without_branch > 0 {
+        sentences.push(CalibreFinding::OpenEnds { count: found.openings_without_branch });
+    }
     let last = sentences.pop().map_or(CalibreSummary::One(CalibreFinding::NoneMeasured), CalibreSummary::One);
     sentences.into_iter().rev().fold(last, |rest, first| CalibreSummary::Sentences { first, rest: Box::new(rest) })
 }
@@ -323,7 +336,7 @@ pub mod fixtures {
     /// A certificate of such branches.
     pub fn certificate(percents: &[Option<f64>]) -> Result<Certificate, CalibreError> {
         let branches = (1..).zip(percents).map(|(number, &percent)| branch(number, percent)).collect();
-        Ok(Certificate::new(branches, 2.0))
+        Ok(Certificate::new(branches, 2.0, 0))
     }
 }
 
@@ -354,6 +367,11 @@ mod tests {
              Measured over 67 % of the length; not over 25 % at forks, 8 % at ends."
         );
         assert_eq!(sentence(&certificate(&[None])), "No vessel can be measured.");
+        let closed = certificate(&[Some(0.5)]).unwrap();
+        for (count, told) in [(1, "one open end."), (1200, "1,200 open ends.")] {
+            let text = sentence(&Ok(Certificate { openings_without_branch: count, ..closed.clone() }));
+            assert!(text.ends_with(&format!("not over 10 % at ends. No vessel was found at {told}")), "{text}");
+        }
         assert!(sentence(&Err(TreeError::NoTriangles.into())).ends_with("the surface has no triangles."));
     }
 

@@ -143,6 +143,10 @@ vessels-unknown = { $count ->
     [one] Eines ist zu kurz oder zu grob für eine Messung.
    *[other] { $count } sind zu kurz oder zu grob für eine Messung.
 }
+vessels-open-ends = { $count ->
+    [one] An einem offenen Ende wurde kein Gefäß gefunden.
+   *[other] An { $count } offenen Enden wurde kein Gefäß gefunden.
+}
 
 ## Warum es keine Gefäße gibt oder nichts gemessen wurde
 

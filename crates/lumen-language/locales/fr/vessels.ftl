@@ -146,6 +146,10 @@ vessels-unknown = { $count ->
     [one] Un autre est trop court ou trop grossier pour être mesuré.
    *[other] { $count } autres sont trop courts ou trop grossiers pour être mesurés.
 }
+vessels-open-ends = { $count ->
+    [one] Aucun vaisseau n'a été trouvé à une extrémité ouverte.
+   *[other] Aucun vaisseau n'a été trouvé à { $count } extrémités ouvertes.
+}
 
 ## Pourquoi il n'y a pas de vaisseau, ou rien de mesuré
 

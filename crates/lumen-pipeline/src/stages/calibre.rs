@@ -75,7 +75,7 @@ fn start_certificate(store: &Store) -> Option<Run> {
                 let (mesh, topology, index) = (reduced.mesh.clone(), reduced.topology.clone(), None);
                 let subject = Subject { mesh, topology, index };
                 let branches = basis.measured(&subject, tolerance, &yielder.part(0.0..0.5)).await;
-                let certificate = Certificate::new(branches, tolerance);
+                let certificate = Certificate::new(branches, tolerance, basis.openings_without_branch());
                 let coloured = (&levels.progressive.positions[..], &reduced.level.triangles[..]);
                 let change_by_node = colours(coloured, &basis, &certificate, &yielder.part(0.5..1.0)).await;
                 Ok(Arc::new(Certified { certificate, change_by_node }))

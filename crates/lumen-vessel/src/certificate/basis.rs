@@ -50,11 +50,16 @@ impl Certificate {
         } else {
             basis.of_smoothed(tolerance_percent)
         };
-        Ok(Self::new(branches, tolerance_percent))
+        Ok(Self::new(branches, tolerance_percent, basis.openings_without_branch()))
     }
 }
 
 impl Basis {
+    /// How many open ends of the surface as opened no branch leads to.
+    pub fn openings_without_branch(&self) -> usize {
+        self.tree.openings_without_branch()
+    }
+
     /// Finds the vessels of the surface as it was opened, and measures them there and on the smoothed one.
     ///
     /// # Errors
@@ -105,7 +110,7 @@ impl Basis {
             calibres: self.calibres[0].clone(),
             zones: self.zones.clone(),
             bumps: self.tree.bumps,
-            openings_without_branch: self.tree.openings_without_branch(),
+            openings_without_branch: self.openings_without_branch(),
         }
     }
 

@@ -152,10 +152,10 @@ mod tests {
         assert_eq!((found.measured_mm, found.percent(), found.is_enough()), (6.0, 30.0, false));
         assert_eq!((found.vessels, found.vessels_measured), (2, 1));
         assert_eq!((one.unmeasured(), other.unmeasured()), (Some(3), Some(1)));
-        let certificate = Certificate::new(vec![one.clone(), other], 2.0);
+        let certificate = Certificate::new(vec![one.clone(), other], 2.0, 0);
         let (worst, station) = certificate.least_measured().unwrap();
         assert_eq!((worst.number, station), (2, 1), "what is measured nowhere comes first");
-        assert_eq!(Certificate::new(vec![one], 2.0).least_measured().unwrap().1, 3);
+        assert_eq!(Certificate::new(vec![one], 2.0, 0).least_measured().unwrap().1, 3);
     }
 
     #[test]

@@ -104,11 +104,14 @@ pub struct Certificate {
     pub coverage: Coverage,
     /// The branches, a parent before its branches.
     pub branches: Vec<BranchCalibre>,
+    /// How many open ends of the surface as opened no branch leads to: nothing was measured there.
+    #[serde(default)]
+    pub openings_without_branch: usize,
 }
 
 impl Certificate {
-    /// Of these branches, which were judged by this tolerance.
-    pub fn new(branches: Vec<BranchCalibre>, tolerance_percent: f64) -> Self {
+    /// Of these branches, which were judged by this tolerance; so many open ends have none.
+    pub fn new(branches: Vec<BranchCalibre>, tolerance_percent: f64, openings_without_branch: usize) -> Self {
         let has = |verdict: Verdict| branches.iter().any(|branch| branch.verdict == verdict);
         let verdict = if has(Verdict::Changed) {
             Verdict::Changed
@@ -117,7 +120,7 @@ impl Certificate {
         } else {
             Verdict::NotMeasured
         };
-        Self { tolerance_percent, verdict, coverage: Coverage::of(&branches), branches }
+        Self { tolerance_percent, verdict, coverage: Coverage::of(&branches), branches, openings_without_branch }
     }
 
     /// A row a station, in the order of the branches. A field is empty where a cross-section does not close.
