@@ -15,6 +15,7 @@ pub mod words;
 
 use serde::{Deserialize, Serialize};
 
+#[cfg(feature = "gui")]
 pub(crate) use html::escaped;
 
 pub use document::{Document, Heading, Row, Subject, Table};

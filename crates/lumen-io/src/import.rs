@@ -287,6 +287,22 @@ mod tests {
     }
 
     #[test]
+    fn a_piece_of_small_vessels_is_told_with_its_other_unit_and_stays_in_its_own() {
+        // Pieces of cerebral arteries, 1.4 to 3.5 mm wide, and the same numbers as those of an aorta in cm; the last is as
+        // long beside its width as no small piece.
+        for (radius, length, is_small) in
+            [(0.7, 6.0, true), (1.0, 10.0, true), (1.75, 14.0, true), (1.55, 19.5, true), (0.88, 24.0, false)]
+        {
+            let part = tube(32, 120, length, |_| radius);
+            let raw = RawSurface::new("tube", part.positions, part.triangles);
+            let report = import(raw, Unit::Millimetre, Axes::Unknown).unwrap().report;
+            let told = in_english(&report.warnings).concat();
+            assert!(told.contains("in cm (") && told.contains("a piece of small vessels, or") == is_small, "{told}");
+            assert_eq!(report.unit_by_size(), (!is_small).then_some(Unit::Centimetre), "{radius} {length}");
+        }
+    }
+
+    #[test]
     fn two_places_stay_two_where_the_change_of_unit_rounds_them_to_one() {
         let near = (0..10_000).map(|i| 1.7 + i as f32 * f32::EPSILON).find(|x| x * 10.0 == x.next_up() * 10.0);
         let [one, other] = [near.unwrap(), near.unwrap().next_up()].map(|x| Vec3::new(x, 0.0, 0.0));

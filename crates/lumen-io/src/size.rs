@@ -16,6 +16,11 @@ use super::report::ImportReport;
 const USUAL_DIAGONAL_MM: RangeInclusive<f64> = 20.0..=2000.0;
 /// Mean calibres, in mm, that draw none: coronary arteries have some 3, an aneurysm of the aorta 40.
 const USUAL_CALIBRE_MM: RangeInclusive<f64> = 2.5..=45.0;
+/// A piece of small vessels, of the brain or the heart: its diagonal and its mean calibre in mm, and how many calibres the
+/// diagonal is at most. In cm it has the size of a piece of the aorta.
+const SMALL_DIAGONAL_MM: RangeInclusive<f64> = 3.0..=25.0;
+const SMALL_CALIBRE_MM: RangeInclusive<f64> = 0.8..=6.0;
+const SMALL_CALIBRES: f64 = 10.0;
 
 messages! {
     /// A size that vessels seldom have.
@@ -33,6 +38,13 @@ messages! {
             /// The units in which it would be usual, and what it would be.
             units: InUnits,
         } => "The surface is {across} mm across, which is unusual for vessels: its numbers may be in {units}.",
+        /// It is a piece of small vessels, or of large ones in another unit.
+        "errors-size-small" Small {
+            /// The diagonal in mm.
+            across: Length,
+            /// The other units, and what the diagonal would be.
+            units: InUnits,
+        } => "The surface is {across} mm across: a piece of small vessels, or its numbers are in {units}.",
         /// The calibre is unusual, which a wall with two sides has none of.
         "errors-calibre-units" Calibre {
             /// The mean calibre in mm.
@@ -44,11 +56,13 @@ messages! {
 }
 
 impl UnusualSize {
-    /// The units in which the size would be usual; none where no unit helps.
+    /// The other units in which the size would be usual; none where no unit helps.
     pub fn units(&self) -> Vec<Unit> {
         match self {
             Self::Across { .. } => Vec::new(),
-            Self::AcrossInUnits { units, .. } | Self::Calibre { units, .. } => units.units(),
+            Self::AcrossInUnits { units, .. } | Self::Small { units, .. } | Self::Calibre { units, .. } => {
+                units.units()
+            }
         }
     }
 }
@@ -121,9 +135,11 @@ impl ToValue for Length {
 }
 
 impl ImportReport {
-    /// The one unit in which the size would be usual, where it is not and only one would do.
+    /// The one unit in which the size would be usual, where it is not and only one would do: none where the size fits small
+    /// vessels as well.
     pub fn unit_by_size(&self) -> Option<Unit> {
-        match self.unusual_size()?.units()[..] {
+        let unusual = self.unusual_size().filter(|unusual| !matches!(unusual, UnusualSize::Small { .. }))?;
+        match unusual.units()[..] {
             [unit] => Some(unit),
             _ => None,
         }
@@ -142,6 +158,13 @@ impl ImportReport {
         let others = || Unit::ALL.into_iter().filter(|&other| other != self.unit).filter(is_as_long);
         let fitting: Vec<Unit> = others().filter(is_as_wide).collect();
         let list = |units: &[Unit], mm: f64| InUnits::new(units, |other| in_unit(mm, other));
+        let is_usual = is_as_long(&self.unit) && is_as_wide(&self.unit);
+        let is_small = SMALL_DIAGONAL_MM.contains(&diagonal)
+            && calibre.is_none_or(|mm| SMALL_CALIBRE_MM.contains(&mm) && diagonal <= SMALL_CALIBRES * mm);
+        if is_small && !is_usual {
+            let units = list(&fitting, diagonal)?;
+            return Some(UnusualSize::Small { across: Length(diagonal), units });
+        }
         if !is_as_long(&self.unit) {
             let units: Vec<Unit> = if fitting.is_empty() { others().collect() } else { fitting };
             let across = Length(diagonal);

@@ -173,6 +173,7 @@ errors-moved = Die Oberfläche liegt weit vom Ursprung ihrer Koordinaten: Sie wu
 errors-unit-by-size = Die Zahlen der Datei wurden nach der Größe der Oberfläche in { $unit } gelesen.
 errors-size = Die Oberfläche misst { $across } mm, was für Gefäße ungewöhnlich ist: bitte die Längeneinheit prüfen.
 errors-size-units = Die Oberfläche misst { $across } mm, was für Gefäße ungewöhnlich ist: Ihre Zahlen sind vielleicht in { $units } angegeben.
+errors-size-small = Die Oberfläche misst { $across } mm: ein Stück kleiner Gefäße, oder ihre Zahlen sind in { $units } angegeben.
 errors-calibre-units = Ihre Gefäße sind im Mittel { $wide } mm weit, was ungewöhnlich ist: Die Zahlen der Datei sind vielleicht in { $units } angegeben.
 errors-size-or = { $first } oder in { $next }
 errors-size-in = { $unit } ({ $length } mm)

@@ -173,6 +173,7 @@ errors-moved = La surface est loin de l'origine de ses coordonnées : elle a é
 errors-unit-by-size = Les nombres du fichier ont été lus en { $unit }, d'après la taille de la surface.
 errors-size = La surface mesure { $across } mm, ce qui est inhabituel pour des vaisseaux : vérifier son unité de longueur.
 errors-size-units = La surface mesure { $across } mm, ce qui est inhabituel pour des vaisseaux : ses nombres sont peut-être en { $units }.
+errors-size-small = La surface mesure { $across } mm : un morceau de petits vaisseaux, ou ses nombres sont en { $units }.
 errors-calibre-units = Ses vaisseaux ont { $wide } mm de large en moyenne, ce qui est inhabituel : les nombres du fichier sont peut-être en { $units }.
 errors-size-or = { $first } ou en { $next }
 errors-size-in = { $unit } ({ $length } mm)

@@ -158,7 +158,8 @@ fn less(known: &Known<'_>) -> Option<Remedy> {
 }
 
 fn size(known: &Known<'_>, found: &UnusualSize) -> Finding {
-    let mut finding = Finding::grave(found.clone());
+    let finding = if matches!(found, UnusualSize::Small { .. }) { Finding::note } else { Finding::grave };
+    let mut finding = finding(found.clone());
     if known.has_units {
         let read = |&unit: &Unit| Remedy { label: RemedyLabel::ReadIn { unit }, change: Remedied::Unit(unit) };
         finding.remedies = found.units().iter().map(read).collect();
