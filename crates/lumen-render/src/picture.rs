@@ -46,7 +46,7 @@ impl Picture {
     }
 
     /// As [`Self::read`], of a texture in [`super::ViewTarget::FORMAT`] that can be copied from.
-    fn read_texture(
+    pub fn read_texture(
         texture: &wgpu::Texture,
         device: &wgpu::Device,
         queue: &wgpu::Queue,

@@ -9,6 +9,7 @@ use super::comparison::{Cell, Comparison, MAX_COMPARED, Outcome};
 use super::difference::Difference;
 use crate::app::action::Action;
 use crate::app::assist::name;
+use crate::app::record;
 use crate::language::decimal;
 use crate::pipeline::settings::Settings;
 use crate::render::viridis;
@@ -26,7 +27,7 @@ pub(super) fn bar(
     shows_first: bool,
     asked: &mut Vec<Action>,
 ) -> bool {
-    let (mut is_held, mut differing) = (false, None);
+    let (mut is_held, mut differing, mut is_saved) = (false, None, false);
     let mut ask = |what| asked.push(Action::Comparison(what));
     ui.horizontal_wrapped(|ui| {
         let can_add = comparison.can_add(settings);
@@ -60,11 +61,17 @@ pub(super) fn bar(
         let flicker = ui.add_enabled(comparison.cells().len() > 1, flicker);
         is_held = flicker.on_hover_text(say!("compare-first-help")).is_pointer_button_down_on();
         differing = difference(ui, comparison);
+        let is_done = comparison.cells().iter().all(|cell| matches!(cell.outcome, Outcome::Done(_)));
+        let save = ui.add_enabled(is_done, egui::Button::new(say!("record-figure")));
+        is_saved = save.on_hover_text(say!("record-figure-help")).clicked();
         if ui.button(say!("compare-done")).on_hover_text(say!("compare-done-help")).clicked() {
             ask(OfComparison::Close);
         }
     });
     asked.extend(differing);
+    if is_saved {
+        asked.push(Action::Record(record::Action::Figure));
+    }
     is_held
 }
 

@@ -1,6 +1,7 @@
-//! A comparison as a picture for print, drawn without a window: the cells of the compare view under a title.
+//! A comparison as a picture for print, drawn apart from any window: the cells of the compare view under a title.
 
 use egui::{Align, CentralPanel, Color32, Frame, Layout, Pos2, RawInput, Rect, RichText, Ui, UiBuilder, vec2};
+use egui_wgpu::{Renderer, RendererOptions};
 
 use super::arrangement::Arrangement;
 use super::cell::{self, Manner};
@@ -11,7 +12,7 @@ use crate::app::graphics_error::{picture_error, surface_error};
 use crate::app::theme;
 use crate::io::Axes;
 use crate::pipeline::deviation::REPORT_SAMPLES;
-use crate::render::{Camera, Picture, PictureError, Style, SurfaceError};
+use crate::render::{Camera, Picture, PictureError, Style, SurfaceError, ViewTarget};
 use crate::say;
 
 /// Width of a figure in points: what it has room for does not depend on its width in pixels.
@@ -67,15 +68,24 @@ pub struct Studio {
 }
 
 impl Studio {
+    /// On the window's device, with textures of its own.
+    pub(in crate::app) fn beside(window: &egui_wgpu::RenderState) -> Self {
+        let target_format = ViewTarget::FORMAT;
+        let renderer = Renderer::new(&window.device, target_format, RendererOptions::PREDICTABLE);
+        let renderer = std::sync::Arc::new(egui::mutex::RwLock::new(renderer));
+        Self { state: egui_wgpu::RenderState { target_format, renderer, ..window.clone() } }
+    }
+
     /// Finds a device.
     ///
     /// # Errors
     /// When there is none.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn open() -> Result<Self, FigureError> {
         let setup = egui_wgpu::WgpuSetup::CreateNew(egui_wgpu::WgpuSetupCreateNew::without_display_handle());
         let instance = pollster::block_on(setup.new_instance());
         let configuration = egui_wgpu::WgpuConfiguration { wgpu_setup: setup, ..Default::default() };
-        let options = egui_wgpu::RendererOptions::PREDICTABLE;
+        let options = RendererOptions::PREDICTABLE;
         let state = egui_wgpu::RenderState::create(&configuration, &instance, None, options);
         Ok(Self { state: pollster::block_on(state)? })
     }
@@ -90,20 +100,45 @@ impl Studio {
     ///
     /// # Errors
     /// When the device does not allow a picture or a surface of that size.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn draw(&self, figure: &Figure<'_>, width: u32) -> Result<Picture, FigureError> {
+        let (texture, is_double) = self.drawn(figure, width)?;
+        let picture = Picture::read_texture_now(&texture, &self.state.device, &self.state.queue)?;
+        Ok(if is_double { halved(&picture) } else { picture })
+    }
+
+    /// As [`Self::draw`], and hands the picture to `then` in a later frame.
+    ///
+    /// # Errors
+    /// When the device does not allow a picture or a surface of that size.
+    pub(in crate::app) fn take(
+        &self,
+        figure: &Figure<'_>,
+        width: u32,
+        then: impl FnOnce(Result<Picture, PictureError>) + wgpu::WasmNotSend + 'static,
+    ) -> Result<(), FigureError> {
+        let (texture, is_double) = self.drawn(figure, width)?;
+        let then = move |picture: Result<Picture, PictureError>| {
+            then(picture.map(|picture| if is_double { halved(&picture) } else { picture }));
+        };
+        Picture::read_texture(&texture, &self.state.device, &self.state.queue, then);
+        Ok(())
+    }
+
+    /// The figure `width` pixels wide, or twice as wide and high where the device allows.
+    fn drawn(&self, figure: &Figure<'_>, width: u32) -> Result<(wgpu::Texture, bool), FigureError> {
         let plan = Plan::new(figure);
         let height = (plan.height * width as f32 / WIDTH).round() as u32;
         let limit = self.state.device.limits().max_texture_dimension_2d;
         if width.max(height) > limit {
             return Err(FigureError::TooLarge { width, height, limit });
         }
-        if 2 * width.max(height) > limit {
-            return self.draw_once(figure, &plan, [width, height]);
-        }
-        Ok(halved(&self.draw_once(figure, &plan, [2 * width, 2 * height])?))
+        let is_double = 2 * width.max(height) <= limit;
+        let times = if is_double { 2 } else { 1 };
+        Ok((self.draw_once(figure, &plan, [times * width, times * height])?, is_double))
     }
 
-    fn draw_once(&self, figure: &Figure<'_>, plan: &Plan, size: [u32; 2]) -> Result<Picture, FigureError> {
+    fn draw_once(&self, figure: &Figure<'_>, plan: &Plan, size: [u32; 2]) -> Result<wgpu::Texture, FigureError> {
         let limit = self.state.device.limits().max_texture_dimension_2d;
         let scale = size[0] as f32 / WIDTH;
         let ctx = egui::Context::default();
@@ -122,7 +157,7 @@ impl Studio {
         }
         drawn?;
         let jobs = ctx.tessellate(shapes, scale);
-        Ok(self.paint(&jobs, &egui_wgpu::ScreenDescriptor { size_in_pixels: size, pixels_per_point: scale })?)
+        Ok(self.paint(&jobs, &egui_wgpu::ScreenDescriptor { size_in_pixels: size, pixels_per_point: scale }))
     }
 
     /// Uploads what the window library wrote to its textures: letters.
@@ -139,11 +174,7 @@ impl Studio {
         delta.free.clear();
     }
 
-    fn paint(
-        &self,
-        jobs: &[egui::ClippedPrimitive],
-        screen: &egui_wgpu::ScreenDescriptor,
-    ) -> Result<Picture, PictureError> {
+    fn paint(&self, jobs: &[egui::ClippedPrimitive], screen: &egui_wgpu::ScreenDescriptor) -> wgpu::Texture {
         let (device, queue) = (&self.state.device, &self.state.queue);
         let [width, height] = screen.size_in_pixels;
         let texture = device.create_texture(&wgpu::TextureDescriptor {
@@ -178,7 +209,7 @@ impl Studio {
         renderer.render(&mut pass, jobs, screen);
         drop(pass);
         queue.submit(uploads.into_iter().chain([encoder.finish()]));
-        Picture::read_texture_now(&texture, device, queue)
+        texture
     }
 }
 

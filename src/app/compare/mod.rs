@@ -12,7 +12,6 @@ mod bar;
 mod cell;
 pub(super) mod comparison;
 mod difference;
-#[cfg(not(target_arch = "wasm32"))]
 pub mod figure;
 mod mode;
 mod scene;

@@ -19,6 +19,8 @@ pub enum Action {
     Turntable,
     /// Save the surface as it is reduced and comes back.
     Film,
+    /// Save what is compared, as a picture.
+    Figure,
     /// Give up what is being drawn.
     Cancel,
 }

@@ -98,6 +98,13 @@ impl Record {
             Action::NameFile(names_file) => self.chosen.names_file = names_file,
             Action::Clear(is_clear) => self.chosen.is_clear = is_clear,
             Action::Cancel => self.cancel(state),
+            Action::Figure => {
+                let device = self.device.as_ref().ok_or_else(|| say!("compare-no-device"));
+                match device.and_then(|device| PlotJob::figure(device, state)) {
+                    Ok(figure) => self.plot = Some(figure),
+                    Err(sentence) => state.warn(&sentence),
+                }
+            }
             Action::Report(_) | Action::Picture(_) | Action::Turntable | Action::Film => {
                 self.cancel(state);
                 let Some(document) = state.document.as_ref().filter(|document| document.shown.is_some()) else {

@@ -1,7 +1,9 @@
-//! A plot on its way to a PNG: drawn at once, read back in a later frame.
+//! A plot, or what is compared, on its way to a PNG: drawn at once, read back in a later frame.
 
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
+use crate::app::compare::comparison::Made;
+use crate::app::compare::figure::{Figure, Studio};
 use crate::app::graphics_error::picture_error;
 use crate::app::lettering::Lettering;
 use crate::app::plot_file::PlotFile;
@@ -12,7 +14,10 @@ use crate::render::{Picture, PictureError, ViewTarget};
 use crate::report::Pixels;
 use crate::say;
 
-/// A plot that was drawn and is read back.
+/// Pixels across what is compared.
+const FIGURE: u32 = 2400;
+
+/// A picture that was drawn and is read back.
 pub(super) struct PlotJob {
     device: wgpu::Device,
     name: String,
@@ -31,6 +36,22 @@ impl PlotJob {
         // Whoever has cancelled meanwhile takes nothing.
         Picture::read(&target, device, queue, move |picture| drop(sender.send(picture)));
         Self { device: device.clone(), name, picture }
+    }
+
+    /// Draws what is compared, once all of it is there.
+    ///
+    /// # Errors
+    /// One sentence where it cannot be drawn.
+    pub(super) fn figure(window: &egui_wgpu::RenderState, state: &State) -> Result<Self, String> {
+        let document = state.document.as_ref().ok_or_else(|| say!("record-nothing"))?;
+        let cells: Vec<Made> = state.comparison.made().ok_or_else(|| say!("record-nothing"))?;
+        // No name, which may be a patient's.
+        let (title, axes) = (say!("record-figure-title"), document.import.axes);
+        let figure = Figure { title: &title, name: "", axes, cells: &cells, arrangement: state.comparison.arrangement };
+        let (sender, picture) = channel();
+        let drawn = Studio::beside(window).take(&figure, FIGURE, move |picture| drop(sender.send(picture)));
+        drawn.map_err(|error| say!("record-cannot-draw", why = error.to_string()))?;
+        Ok(Self { device: window.device.clone(), name: format!("{}-compared.png", document.stem()), picture })
     }
 
     /// Hands the picture to the engine, which makes the file; whether it is with it.

@@ -20,6 +20,9 @@ record-plot-svg = Als Vektorgrafik (SVG)...
 record-plot-svg-help = Scharf in jeder Größe; Wörter bleiben Text
 record-plot-png = Als Bild (PNG)...
 record-plot-png-help = 1920 Pixel breit
+record-figure = Bild speichern...
+record-figure-help = Alle zusammen als ein Bild für Folien und Veröffentlichungen (PNG), 2400 Pixel breit
+record-figure-title = Glättung und Reduktion im Vergleich
 
 ## Das Blatt des Berichts
 

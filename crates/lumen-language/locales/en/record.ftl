@@ -21,6 +21,9 @@ record-plot-svg = As vector graphic (SVG)...
 record-plot-svg-help = Sharp at any size; its words stay words
 record-plot-png = As picture (PNG)...
 record-plot-png-help = 1920 pixels wide
+record-figure = Save picture...
+record-figure-help = All of them as one picture for slides and papers (PNG), 2400 pixels wide
+record-figure-title = Smoothing and reduction compared
 
 ## The sheet of the report
 

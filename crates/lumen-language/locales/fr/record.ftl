@@ -20,6 +20,9 @@ record-plot-svg = En image vectorielle (SVG)...
 record-plot-svg-help = Nette à toute taille ; les mots restent du texte
 record-plot-png = En image (PNG)...
 record-plot-png-help = 1920 pixels de large
+record-figure = Enregistrer l'image...
+record-figure-help = Le tout en une image pour des diapositives ou un article (PNG), 2400 pixels de large
+record-figure-title = Lissage et réduction comparés
 
 ## La feuille du rapport
 

@@ -9,7 +9,7 @@ use lumen::app::compare::{Arrangement, Cell, Made, Outcome};
 use lumen::pipeline::deviation::deviation;
 use lumen::pipeline::paper;
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, drag, says, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, drag, offered, says, settle, settle_wholly};
 
 fn press(harness: &mut Harness<'_, LumenApp>, button: &str) {
     harness.get_by_role_and_label(Role::Button, button).click();
@@ -414,4 +414,28 @@ fn what_is_compared_has_a_plain_heading_with_the_papers_figure_below() {
     settle(&mut harness);
     press(&mut harness, "Remove Pass band 0.1, 30 iterations");
     assert!(heading(&harness, "Settings side by side") && !says(&harness, "Figure 6 of the paper"));
+}
+
+#[test]
+fn what_is_compared_is_saved_as_one_picture() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    press(&mut harness, "Compare");
+    settle(&mut harness);
+    press(&mut harness, "Save picture...");
+    let (name, bytes) = offered(&mut harness, &memory);
+    assert_eq!(name, "abdominal-aorta-compared.png");
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!(info.width, 2400);
+    // White paper around three columns of vessels, which are red.
+    let is_red = |pixel: &[u8]| pixel[0] > 120 && pixel[0] > pixel[1].saturating_add(40);
+    let column = |i: usize| {
+        let within = (0..pixels.len() / 3).filter(move |at| at % 2400 * 3 / 2400 == i);
+        within.filter(|at| is_red(&pixels[3 * at..3 * at + 3])).count()
+    };
+    assert_eq!(&pixels[..3], [255; 3]);
+    let compared = harness.state().state().comparison.cells().len();
+    assert!((0..compared.min(3)).all(|i| column(i) > 5_000), "{:?}", [0, 1, 2].map(column));
 }
