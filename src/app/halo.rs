@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, Color32, FontId, Galley, Painter, Pos2, Stroke, vec2};
+use egui::{Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Stroke, vec2};
 
 use crate::render::{Colour, contrast};
 
@@ -34,11 +34,12 @@ fn around(colour: Color32) -> Color32 {
     if stands_out(0) > stands_out(255) { Color32::BLACK } else { Color32::WHITE }
 }
 
-/// Writes text of one line, aligned to `at`.
-pub(super) fn text(painter: &Painter, at: Pos2, align: Align2, text: &str, font: FontId, colour: Color32) {
+/// Writes text of one line, aligned to `at`; where it stands.
+pub(super) fn text(painter: &Painter, at: Pos2, align: Align2, text: &str, font: FontId, colour: Color32) -> Rect {
     let laid_out = painter.layout_no_wrap(text.to_owned(), font, colour);
     let place = align.anchor_size(at, laid_out.size());
     galley(painter, place.min, laid_out, colour);
+    place
 }
 
 /// Writes text that is laid out in one colour.

@@ -65,6 +65,7 @@ pub mod history;
 mod icon;
 mod invitation;
 mod keys;
+mod labels;
 mod large;
 mod lasting;
 pub mod lesson;

@@ -4,7 +4,7 @@
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
 use super::places::seen;
-use super::{arrays, halo, theme};
+use super::{arrays, halo, labels, theme};
 use crate::io::Axes;
 use crate::language::{Key, decimal, grouped};
 use crate::mesh::{ArrayInfo, Vec3};
@@ -67,10 +67,13 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
     let painter = ui.painter_at(rect);
     let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
     let inner = rect.shrink(MARGIN);
-    halo::text(&painter, inner.left_top(), Align2::LEFT_TOP, writing.title, FontId::proportional(14.0), text);
+    let title =
+        halo::text(&painter, inner.left_top(), Align2::LEFT_TOP, writing.title, FontId::proportional(14.0), text);
+    labels::stands(ui.ctx(), title);
     let small = FontId::proportional(12.0);
     if let Some(name) = writing.name {
         let galley = painter.layout(name.to_owned(), small.clone(), weak, inner.width() * 0.6);
+        labels::stands(ui.ctx(), Rect::from_min_size(inner.left_top() + vec2(0.0, 20.0), galley.size()));
         halo::galley(&painter, inner.left_top() + vec2(0.0, 20.0), galley, weak);
         scale_bar(&painter, inner, rect.height(), writing.camera, text);
         // Legends stand at the right, and in a low view there is room for one of the two.
@@ -84,7 +87,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
         } else {
             (inner.left_bottom() - vec2(0.0, 24.0), Align2::LEFT_BOTTOM)
         };
-        halo::text(&painter, place, align, &NOT_CLINICAL.say(), small, weak);
+        let place = halo::text(&painter, place, align, &NOT_CLINICAL.say(), small, weak);
+        labels::stands(ui.ctx(), place);
     }
     if let Some(colours) = &writing.legend {
         legend(&painter, inner, colours, text);
@@ -121,23 +125,16 @@ pub(super) fn ring_at(ui: &Ui, rect: Rect, middle: Pos2, label: &str, colour: Co
     }
     let painter = ui.painter_at(rect);
     painter.circle_stroke(middle, RADIUS, Stroke::new(2.0, colour));
-    let (beside, align) = if middle.x < rect.center().x {
-        (RADIUS + 8.0, Align2::LEFT_CENTER)
-    } else {
-        (-RADIUS - 8.0, Align2::RIGHT_CENTER)
-    };
     // On a plate: below it the surface may have any colour.
     let text = painter.layout_no_wrap(label.to_owned(), FontId::proportional(12.0), colour);
-    let mut place = align.anchor_size(middle + vec2(beside, 0.0), text.size());
-    let inside = rect.shrink2(vec2(8.0, 5.0));
-    if !inside.contains_rect(place) {
-        // Above or below the ring, where the view has room for it.
+    let places = labels::around(middle, text.size(), RADIUS + 8.0, rect);
+    let place = labels::free(ui, rect, places).unwrap_or_else(|| {
+        // Above or below the ring, on whatever stands there; what is too wide is read from its beginning.
+        let inside = rect.shrink2(vec2(8.0, 5.0));
         let down = if middle.y < rect.center().y { 1.0 } else { -1.0 };
-        place = Align2::CENTER_CENTER.anchor_size(middle + vec2(0.0, down * (RADIUS + 14.0)), text.size());
-        // What is too wide is read from its beginning.
-        let least = (inside.max - place.size()).min(place.min).max(inside.min);
-        place = Rect::from_min_size(least, place.size());
-    }
+        let place = Align2::CENTER_CENTER.anchor_size(middle + vec2(0.0, down * (RADIUS + 14.0)), text.size());
+        Rect::from_min_size((inside.max - place.size()).min(place.min).max(inside.min), place.size())
+    });
     painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, ui.visuals().window_fill.gamma_multiply(0.9));
     halo::galley(&painter, place.min, text, colour);
 }
@@ -152,6 +149,7 @@ fn scale_bar(painter: &Painter, inner: Rect, height: f32, camera: &Camera, colou
     let ends = [left, left + length];
     let [first, last] = ends.map(|x| [pos2(x, y - 4.0), pos2(x, y + 4.0)]);
     halo::lines(painter, &[ends.map(|x| pos2(x, y)), first, last], stroke);
+    labels::stands(painter.ctx(), Rect::from_min_max(pos2(left, y - 22.0), pos2(left + length.max(40.0), y + 4.0)));
     let label = format!("{} mm", grouped(mm));
     // A label that is longer than its bar begins where the bar does.
     let text = painter.layout_no_wrap(label, FontId::proportional(12.0), colour);
@@ -182,6 +180,7 @@ fn orientation(painter: &Painter, inner: Rect, camera: &Camera, axes: Axes, colo
     const SIZE: f32 = 24.0;
     let middle = pos2(inner.right() - SIZE - 8.0, inner.top() + SIZE + 8.0);
     let is_unknown = axes == Axes::Unknown;
+    labels::stands(painter.ctx(), Rect::from_center_size(middle, vec2(2.0, 2.0) * (SIZE + 12.0)));
     let mut axes: Vec<_> = camera.axes().into_iter().zip(axes.letters()).collect();
     axes.sort_by(|(a, _), (b, _)| a.z.total_cmp(&b.z));
     for (axis, letter) in axes {
@@ -220,6 +219,8 @@ fn bar_in(inner: Rect) -> Rect {
 fn colour_bar(painter: &Painter, inner: Rect, is_diverging: bool) -> Rect {
     const STEPS: usize = 64;
     let bar = bar_in(inner);
+    // Its numbers stand at the left of its ends, its title above, its note below.
+    labels::stands(painter.ctx(), Rect::from_min_max(bar.min - vec2(60.0, 30.0), bar.max + vec2(0.0, 30.0)));
     for i in 0..STEPS {
         let t = i as f32 / STEPS as f32;
         let [r, g, b] = if is_diverging { diverging(t) } else { viridis(t) }.0;

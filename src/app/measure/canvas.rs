@@ -2,8 +2,8 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, vec2};
 
-use crate::app::halo;
 use crate::app::places::seen;
+use crate::app::{halo, labels};
 use crate::mesh::Vec3;
 use crate::render::Camera;
 
@@ -58,11 +58,13 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Words beside a place, on a plate.
+    /// Words beside a place, on a plate; none where there is no room for them.
     pub(super) fn label(&self, place: Vec3, words: &str, colour: Color32) {
         let Some(at) = self.at(place) else { return };
         let text = self.painter.layout_no_wrap(words.to_owned(), FontId::proportional(12.0), colour);
-        let beside = Align2::LEFT_CENTER.anchor_size(at + vec2(12.0, -10.0), text.size());
+        let own = Align2::LEFT_CENTER.anchor_size(at + vec2(12.0, -10.0), text.size());
+        let around = labels::around(at, text.size(), 12.0, self.rect);
+        let Some(beside) = labels::free(self.ui, self.rect, std::iter::once(own).chain(around)) else { return };
         self.painter.rect_filled(
             beside.expand2(vec2(5.0, 2.0)),
             4.0,

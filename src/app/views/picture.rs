@@ -210,7 +210,7 @@ impl Views {
         );
     }
 
-    /// Marks places: classes, the pinch, collapses, faults, and the one that was gone to.
+    /// Marks places: classes, the one that was gone to, the pinch, collapses, faults.
     fn mark(&self, ui: &Ui, rect: Rect, picture: &Picture, document: Option<&Document>, collapses: &Collapses) {
         if let Some(document) = document.filter(|_| !self.show_before) {
             if picture.style.by_vertex
@@ -224,6 +224,9 @@ impl Views {
                 let normals = self.scene.as_ref().map_or(&[][..], Scene::normals);
                 classes::lines(ui, rect, &self.camera, document, &found.lines, normals);
             }
+        }
+        if let Some(spot) = &self.spot {
+            overlay::ring(ui, rect, &self.camera, spot.at, &spot.label, ui.visuals().hyperlink_color);
         }
         if let Some(pinch) = document.and_then(Document::pinch).filter(|_| !self.show_before) {
             let before = decimal(pinch.diameter_before_mm, 1);
@@ -239,9 +242,6 @@ impl Views {
         }
         if let Some((document, shown)) = document.zip(self.options.fault) {
             mending::marks(ui, rect, &self.camera, document, shown);
-        }
-        if let Some(spot) = &self.spot {
-            overlay::ring(ui, rect, &self.camera, spot.at, &spot.label, ui.visuals().hyperlink_color);
         }
     }
 
