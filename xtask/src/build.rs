@@ -25,7 +25,7 @@ const BUDGET: usize = 4_000_000;
 const PROGRAMS: [&str; 2] = ["lumen-web", "lumen-scan"];
 
 /// The languages whose messages are no part of the program, and what their files end in.
-const LANGUAGES: [&str; 2] = ["de", "fr"];
+pub(crate) const LANGUAGES: [&str; 2] = ["de", "fr"];
 const MESSAGES: &str = "ftl";
 
 /// The features of `.cargo/config.toml`, with those that Rust switches on by itself.

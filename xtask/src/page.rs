@@ -105,4 +105,18 @@ mod tests {
         assert!(!files.contains_key("service-worker.js"));
         std::fs::remove_dir_all(&dist).unwrap();
     }
+
+    #[test]
+    fn trunk_lays_out_every_file_of_www_and_every_language() {
+        let www = root().join("www");
+        let page = std::fs::read_to_string(www.join("index.html")).unwrap();
+        for file in files_below(&www).unwrap() {
+            let name = file.file_name().unwrap().to_str().unwrap();
+            let link = format!("<link data-trunk rel=\"copy-file\" href=\"{name}\">");
+            assert!(name == "index.html" || page.contains(&link), "{name}");
+        }
+        let trunk = std::fs::read_to_string(root().join("Trunk.toml")).unwrap();
+        assert_eq!(trunk.matches(&format!("in {}", crate::build::LANGUAGES.join(" "))).count(), 1);
+        assert_eq!(trunk.matches(&format!("({})", crate::build::LANGUAGES.join(" "))).count(), 1);
+    }
 }

@@ -91,6 +91,7 @@ impl Studio {
     }
 
     /// The device, and what is submitted to it.
+    #[cfg(not(target_arch = "wasm32"))]
     pub(in crate::app) fn device(&self) -> (&wgpu::Device, &wgpu::Queue) {
         (&self.state.device, &self.state.queue)
     }
