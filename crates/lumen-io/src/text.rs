@@ -50,8 +50,27 @@ impl<'a> Words<'a> {
 
     /// Moves to the end of the current line.
     pub(super) fn skip_line(&mut self) {
+        self.at += self.line_left().len();
+    }
+
+    /// Moves to where a word stands before another in the current line, in any case, or to its end.
+    pub(super) fn skip_line_until(&mut self, word: &[u8], next: &[u8]) {
+        let mut line = Words::new(self.line_left(), 0);
+        let mut start = None;
+        while let Some(found) = line.next() {
+            if let Some(start) = start.filter(|_| found.eq_ignore_ascii_case(next)) {
+                self.at += start;
+                return;
+            }
+            start = found.eq_ignore_ascii_case(word).then(|| line.at - found.len());
+        }
+        self.skip_line();
+    }
+
+    /// What is left of the current line.
+    fn line_left(&self) -> &'a [u8] {
         let rest = &self.bytes[self.at..];
-        self.at += rest.iter().position(|&byte| byte == b'\n' || byte == b'\r').unwrap_or(rest.len());
+        &rest[..rest.iter().position(|&byte| byte == b'\n' || byte == b'\r').unwrap_or(rest.len())]
     }
 }
 

@@ -13,6 +13,8 @@ messages! {
     #[allow(missing_docs, reason = "its sentence says what each is")]
     pub enum Warning {
         "errors-stl-trailing" StlTrailing { bytes: usize } => "{bytes} bytes after the last triangle left out.",
+        "errors-stl-count" StlCount { announced: u32, found: usize } =>
+            "The number of triangles that the file announces ({announced}) does not go with its length: {found} read.",
         "errors-stl-open" StlOpen => "The file may be cut short: its last solid has no end.",
         "errors-ply-trailing" PlyTrailing { bytes: usize } => "{bytes} bytes after the last element left out.",
         "errors-ply-unannounced" PlyUnannounced =>

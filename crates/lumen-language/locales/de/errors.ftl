@@ -127,6 +127,7 @@ errors-vtk-field-type = ein Abschnitt „FIELD“ hat Werte eines unbekannten Ty
 ## Was zu einer geöffneten Datei gesagt wird. $number ist $count, ausgeschrieben.
 
 errors-stl-trailing = { $bytes } Byte nach dem letzten Dreieck weggelassen.
+errors-stl-count = Die Zahl der Dreiecke, die die Datei ankündigt ({ $announced }), passt nicht zu ihrer Länge: { $found } gelesen.
 errors-stl-open = Die Datei ist vielleicht abgeschnitten: Ihr letzter Körper hat kein Ende.
 errors-ply-trailing = { $bytes } Byte nach dem letzten Element weggelassen.
 errors-ply-unannounced = Zahlen, die der Kopf der Datei nicht ankündigt, wurden weggelassen.

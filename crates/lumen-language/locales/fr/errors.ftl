@@ -127,6 +127,7 @@ errors-vtk-field-type = un champ a des valeurs d'un type inconnu
 ## Ce qui est dit d'un fichier ouvert. $number est $count, écrit.
 
 errors-stl-trailing = { $bytes } octets après le dernier triangle omis.
+errors-stl-count = Le nombre de triangles que le fichier annonce ({ $announced }) ne va pas avec sa longueur : { $found } lus.
 errors-stl-open = Le fichier est peut-être tronqué : son dernier solide n'a pas de fin.
 errors-ply-trailing = { $bytes } octets après le dernier élément omis.
 errors-ply-unannounced = Des nombres que l'en-tête du fichier n'annonce pas ont été omis.
