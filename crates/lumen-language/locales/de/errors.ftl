@@ -62,7 +62,6 @@ errors-version = Version { $version }
 errors-compressor = das Kompressionsverfahren { $name }
 errors-lzma = LZMA mit einem Wörterbuch von { $bytes } Byte
 errors-gltf-whole-positions = Positionen aus ganzen 32-Bit-Zahlen
-errors-gltf-sparse = dünn besetzte Accessoren
 errors-extension = { $name }
 
 ## Was in einer Datei falsch ist: hinter einem Gedankenstrich, vor einem Punkt. Wörter der Datei stehen schon in Anführungszeichen.
@@ -103,6 +102,8 @@ errors-gltf-accessor-shape = Accessor { $accessor } hat nicht die Form, die sein
 errors-gltf-accessor-empty = Accessor { $accessor } hat keine Daten
 errors-gltf-accessor-beyond = Accessor { $accessor } liegt hinter dem Ende der Daten
 errors-gltf-accessor-overlap = Accessor { $accessor } hat Einträge, die sich überschneiden
+errors-gltf-packed = ihre gepackte Ansicht { $view } ist beschädigt oder von einer Art, die nicht gelesen wird
+errors-gltf-skin = Skin { $skin } passt nicht zur Szene oder zu dem Netz, das er bewegt
 errors-gltf-indices = die Nummern ihrer Eckpunkte sind keine ganzen Zahlen ohne Vorzeichen
 
 errors-vtk-xml = ihr XML ist dort falsch oder unvollständig

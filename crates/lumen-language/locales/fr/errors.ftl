@@ -62,7 +62,6 @@ errors-version = la version { $version }
 errors-compressor = la compression { $name }
 errors-lzma = LZMA avec un dictionnaire de { $bytes } octets
 errors-gltf-whole-positions = des positions en nombres entiers de 32 bits
-errors-gltf-sparse = des accesseurs clairsemés
 errors-extension = { $name }
 
 ## Ce qui est incorrect dans un fichier: derrière deux points, avant un point. Les mots du fichier sont déjà entre guillemets.
@@ -103,6 +102,8 @@ errors-gltf-accessor-shape = l'accesseur { $accessor } n'a pas la forme que son 
 errors-gltf-accessor-empty = l'accesseur { $accessor } n'a pas de données
 errors-gltf-accessor-beyond = l'accesseur { $accessor } se trouve au-delà de la fin des données
 errors-gltf-accessor-overlap = l'accesseur { $accessor } a des éléments qui se chevauchent
+errors-gltf-packed = sa vue compressée { $view } est endommagée, ou d'une sorte qui n'est pas lue
+errors-gltf-skin = le skin { $skin } ne va pas avec la scène ou avec le maillage qu'il déplace
 errors-gltf-indices = ses numéros de sommets ne sont pas des nombres entiers sans signe
 
 errors-vtk-xml = son XML y est incorrect ou incomplet
