@@ -51,7 +51,7 @@ pub(super) static KIND: FileKind = FileKind {
 pub(super) static WRITTEN: Written = Written { write, arrays: Arrays::None };
 
 /// Whether `bytes` are exactly as long as the binary file that their header announces.
-fn has_binary_length(bytes: &[u8]) -> bool {
+pub(super) fn has_binary_length(bytes: &[u8]) -> bool {
     announced(bytes).is_some_and(|facets| binary_length(facets) == bytes.len() as u64)
 }
 

@@ -22,6 +22,11 @@ messages! {
         "errors-ply-more-numbers" PlyMoreNumbers => "Numbers after the last element were left out.",
         "errors-vtk-solids-left-out" SolidCells { cells: u64 } =>
             "{cells} solid or curved cells left out: Lumen shows surfaces.",
+        "errors-vtk-curved" CurvedCells { count: usize } => (
+            count,
+            "{count} curved face taken as flat: only its corners are kept.",
+            "{count} curved faces taken as flat: only their corners are kept."
+        ),
         "errors-fanned" Fanned { count: usize } => (
             count,
             "{count} polygon could not be cut into triangles without folding, having no area or crossing itself.",

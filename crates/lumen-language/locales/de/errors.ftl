@@ -134,6 +134,10 @@ errors-ply-trailing = { $bytes } Byte nach dem letzten Element weggelassen.
 errors-ply-unannounced = Zahlen, die der Kopf der Datei nicht ankündigt, wurden weggelassen.
 errors-ply-more-numbers = Zahlen nach dem letzten Element wurden weggelassen.
 errors-vtk-solids-left-out = { $cells } Volumen- oder gekrümmte Zellen weggelassen: Lumen zeigt Oberflächen.
+errors-vtk-curved = { $count ->
+    [one] { $count } gekrümmte Fläche als eben gelesen: Nur ihre Ecken werden behalten.
+   *[other] { $count } gekrümmte Flächen als eben gelesen: Nur ihre Ecken werden behalten.
+}
 errors-fanned = { $count ->
     [one] { $count } Vieleck konnte nicht ohne Falten in Dreiecke zerlegt werden, da es keine Fläche hat oder sich selbst schneidet.
    *[other] { $count } Vielecke konnten nicht ohne Falten in Dreiecke zerlegt werden, da sie keine Fläche haben oder sich selbst schneiden.

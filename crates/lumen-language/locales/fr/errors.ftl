@@ -134,6 +134,10 @@ errors-ply-trailing = { $bytes } octets après le dernier élément omis.
 errors-ply-unannounced = Des nombres que l'en-tête du fichier n'annonce pas ont été omis.
 errors-ply-more-numbers = Des nombres après le dernier élément ont été omis.
 errors-vtk-solids-left-out = { $cells } cellules volumiques ou courbes omises : Lumen montre des surfaces.
+errors-vtk-curved = { $count ->
+    [one] { $count } face courbe prise comme plane : seuls ses coins sont gardés.
+   *[other] { $count } faces courbes prises comme planes : seuls leurs coins sont gardés.
+}
 errors-fanned = { $count ->
     [one] { $count } polygone n'a pas pu être découpé en triangles sans repli : il n'a pas d'aire ou se croise lui-même.
    *[other] { $count } polygones n'ont pas pu être découpés en triangles sans repli : ils n'ont pas d'aire ou se croisent eux-mêmes.
