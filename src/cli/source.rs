@@ -84,10 +84,10 @@ fn open(name: &str, unit: Option<UnitOption>, options: &ScanOptions) -> Result<(
         }
         Some(opened) => Ok((opened.surface(options).with_context(|| name.to_owned())?, None)),
         None => {
-            options.refuse(name)?;
             let bytes = Arc::new(std::fs::read(name).with_context(|| format!("cannot read {name}"))?);
             let read = |unit| surface(Arc::clone(&bytes), name, ImportOptions { unit });
             let mut imported = read(unit.and_then(UnitOption::given))?;
+            options.refuse(name)?;
             if unit == Some(UnitOption::Auto)
                 && let Some(unit) = imported.report.unit_by_size()
             {

@@ -27,7 +27,9 @@ fn scans_are_refused_by_the_feature_that_is_missing() {
     ] {
         let (scan, out) = (folder.file(name), folder.file("out.ply"));
         std::fs::write(&scan, bytes).unwrap();
-        for arguments in [&["inspect", &scan][..], &["mend", &scan, "-o", &out], &["inspect", &scan, "--label", "1"]] {
+        for arguments in
+            [&["inspect", &scan][..], &["mend", &scan, "-o", &out, "--split"], &["inspect", &scan, "--label", "1"]]
+        {
             assert_eq!(refused(arguments), format!("lumen: {scan}: {NO_SCANS}\n"), "{arguments:?}");
         }
         assert_eq!(refused(&["surface", &scan, "-o", &out, "--threshold", "150"]), format!("lumen: {NO_SCANS}\n"));
