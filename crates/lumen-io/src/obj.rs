@@ -11,8 +11,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use glam::DVec3;
-use memchr::{memchr, memchr2};
+use memchr::{memchr_iter, memchr2};
 
+use super::columns::left_out;
 use super::error::ReadError;
 use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
 use super::memory_budget::MemoryBudget;
@@ -23,6 +24,7 @@ use super::problem::TextProblem;
 use super::raw::RawSurface;
 use super::text;
 use super::unit::Unit;
+use super::warnings::ArrayProblem;
 use lumen_mesh::arrays::{Association, Scalar, Values};
 use lumen_mesh::{Array, Vec3};
 
@@ -80,6 +82,8 @@ struct Reader {
     positions: Vec<Vec3>,
     faces: Faces,
     colours: Values,
+    /// Whether the colour of a vertex is no number.
+    has_spoilt_colour: bool,
     groups: Groups,
     lines: usize,
     points: usize,
@@ -95,6 +99,7 @@ impl Reader {
             positions: Vec::new(),
             faces: Faces::default(),
             colours: Values::new(Scalar::F32),
+            has_spoilt_colour: false,
             groups: Groups::default(),
             lines: 0,
             points: 0,
@@ -115,11 +120,9 @@ impl Reader {
                     let broken = || syntax(TextProblem::NoCoordinate { word: text::quoted(word) });
                     *coordinate = text::coordinate(word, origin).ok_or_else(broken)?;
                 }
-                let colour: [Option<f32>; 3] = std::array::from_fn(|_| words.next().and_then(text::number));
-                if let ([Some(r), Some(g), Some(b)], None, true) =
-                    (colour, words.next(), self.colours.len() == 3 * self.positions.len())
-                {
-                    [r, g, b].iter().for_each(|&part| self.colours.push(f64::from(part)));
+                let colour: [Option<&[u8]>; 3] = std::array::from_fn(|_| words.next());
+                if let ([Some(r), Some(g), Some(b)], None) = (colour, words.next()) {
+                    self.add_colour([r, g, b]);
                 }
                 self.positions.push(Vec3::from(coordinates));
             }
@@ -154,6 +157,17 @@ impl Reader {
         Ok(())
     }
 
+    /// Takes the colour of the next vertex, where all before have one.
+    fn add_colour(&mut self, colour: [&[u8]; 3]) {
+        match colour.map(text::number::<f32>) {
+            [Some(r), Some(g), Some(b)] if self.colours.len() == 3 * self.positions.len() => {
+                [r, g, b].iter().for_each(|&part| self.colours.push(f64::from(part)));
+            }
+            [Some(_), Some(_), Some(_)] => {}
+            _ => self.has_spoilt_colour = true,
+        }
+    }
+
     /// The surface, once all lines are read, of a file of `file` bytes.
     fn surface(self, file: usize) -> Result<RawSurface, ReadError> {
         let (corner, face) = self.farthest;
@@ -168,6 +182,10 @@ impl Reader {
         let mut arrays = Vec::new();
         if self.colours.len() == 3 * raw.positions.len() {
             arrays.push(Array::new("RGB", Association::Point, 3, self.colours));
+        } else if self.has_spoilt_colour {
+            raw.warnings.push(left_out("RGB", ArrayProblem::NoNumber));
+        } else if !self.colours.is_empty() {
+            raw.warnings.push(left_out("RGB", ArrayProblem::NotEverywhere));
         }
         // The cell of a triangle is its group here.
         if raw.cells.iter().any(|group| raw.cells.first() != Some(group)) {
@@ -201,8 +219,12 @@ impl Groups {
 
 /// The words of a line, up to a comment.
 fn words(row: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let end = memchr(b'#', row).unwrap_or(row.len());
-    row[..end].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+    row[..comment(row).unwrap_or(row.len())].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// Where the comment in a line begins. Windows writes `1.#IND` where there is no number.
+fn comment(row: &[u8]) -> Option<usize> {
+    memchr_iter(b'#', row).find(|&at| at == 0 || row[at - 1] != b'.')
 }
 
 /// The lines of a text with their numbers, joined with the next where they go on there.
@@ -252,7 +274,7 @@ impl<'a> Lines<'a> {
 
 /// What stands before the backslash at the end of a line, if that is not in a comment.
 fn before_backslash(line: &[u8]) -> Option<&[u8]> {
-    line.trim_ascii_end().strip_suffix(b"\\").filter(|start| !start.contains(&b'#'))
+    line.trim_ascii_end().strip_suffix(b"\\").filter(|start| comment(start).is_none())
 }
 
 /// Whether a line is one of those that are read as numbers.
@@ -337,6 +359,20 @@ mod tests {
         for end in ["\n", "\r\n", "\r", " \r\n"] {
             assert_eq!(count(&format!("f 1 2\\{end}  3 \\{end}\\{end}4{end}")), 2, "{end:?}");
         }
+    }
+
+    #[test]
+    fn colours_that_are_no_numbers_or_not_everywhere_are_left_out() {
+        let warned = |first: &str, last: &str| {
+            let text = format!("v 0 0 0 {first}\nv 1 0 0 0 0 1\nv 0 1 0 {last}\nf 1 2 3");
+            let raw = read(text.as_bytes()).unwrap();
+            assert_eq!((raw.triangles.len(), raw.arrays.is_empty()), (1, !raw.warnings.is_empty()));
+            crate::in_english(&raw.warnings).concat()
+        };
+        assert_eq!(warned("1 .5 0", "0 0 0"), "");
+        assert_eq!(warned("1.#IND 0 0", "0 0 0"), "The array \"RGB\" is left out: it holds what is no number.");
+        assert_eq!(warned("0 0 0", "0 0 -nan(ind)"), "The array \"RGB\" is left out: it holds what is no number.");
+        assert_eq!(warned("0 0 0", ""), "The array \"RGB\" is left out: not every part of the file has it.");
     }
 
     #[test]
