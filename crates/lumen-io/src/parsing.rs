@@ -35,7 +35,11 @@ pub(super) async fn parse(
         pace.rest(0.0).await;
         raw = (kind.parse)(bytes, unit, origin, &pace).await?;
     }
-    MemoryBudget::of(bytes.len() + raw.unpacked).check(raw.label, raw.positions.len(), raw.triangles.len())?;
+    MemoryBudget::of(bytes.len().saturating_add(raw.unpacked)).check(
+        raw.label,
+        raw.positions.len(),
+        raw.triangles.len(),
+    )?;
     let axes = if kind.axes_in_head { axes::stated(bytes) } else { raw.axes };
     Ok((raw, unit, axes))
 }

@@ -85,12 +85,12 @@ impl<'a> Buffers<'a> {
 
     /// The room for the file: what is packed stands for more than its bytes.
     pub(super) fn budget(&self) -> MemoryBudget {
-        MemoryBudget::of(self.file + self.unpacked_bytes())
+        MemoryBudget::of(self.file.saturating_add(self.unpacked_bytes()))
     }
 
     /// Bytes by which what was packed is longer than the file, as far as that can be honest.
     pub(super) fn unpacked_bytes(&self) -> usize {
-        self.unpacked_bytes.min(HONEST * self.file)
+        self.unpacked_bytes.min(self.file.saturating_mul(HONEST))
     }
 
     /// Makes what an accessor's items are taken from.
@@ -136,9 +136,10 @@ impl<'a> Buffers<'a> {
     ) -> Result<Vec<u8>, ReadError> {
         let number = index.value();
         let layout = Layout::of(accessor, number)?;
-        self.make(layout.count.saturating_mul(layout.size as u64))?;
+        let bytes = layout.count.saturating_mul(layout.size as u64);
+        self.make(bytes)?;
         let beyond = || malformed(GltfProblem::AccessorBeyond { accessor: number });
-        let mut items = vec![0; layout.count as usize * layout.size];
+        let mut items = vec![0; usize::try_from(bytes).map_err(|_| beyond())?];
         if accessor.buffer_view.is_some() {
             let base = self.stored(root, accessor, layout, number)?;
             for (i, item) in items.chunks_exact_mut(layout.size).enumerate() {
@@ -157,8 +158,7 @@ impl<'a> Buffers<'a> {
         let values =
             self.window(root, sparse.values.buffer_view, sparse.values.byte_offset.0, values, number, false)?;
         for (i, place) in places.indices(pace).await?.into_iter().enumerate() {
-            let start = place as usize * layout.size;
-            let item = items.get_mut(start..start + layout.size).ok_or_else(beyond)?;
+            let item = items.chunks_exact_mut(layout.size).nth(place as usize).ok_or_else(beyond)?;
             item.copy_from_slice(values.item(i));
         }
         Ok(items)
