@@ -62,20 +62,21 @@ pub(crate) fn valid() -> Vec<(&'static str, Vec<u8>)> {
 }
 
 /// Three vertices packed by meshopt, one of them put in place of another (sparse), held by a joint.
-const PACKED_GLTF: &str = "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0,\"skin\":0},{\"translation\":[1\
-    ,0,0]}],\"skins\":[{\"joints\":[1]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":2,\"\
-    WEIGHTS_0\":3},\"indices\":1}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VE\
-    C3\",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":2,\"componentType\":5121},\"values\":{\"bufferView\":3}}},\
-    {\"bufferView\":1,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"},{\"bufferView\":4,\"componentType\":5121\
-    ,\"count\":3,\"type\":\"VEC4\"},{\"bufferView\":5,\"componentType\":5121,\"count\":3,\"type\":\"VEC4\",\"normalized\":\
-    true}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36,\"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":\
-    0,\"byteOffset\":0,\"byteLength\":57,\"byteStride\":12,\"mode\":\"ATTRIBUTES\",\"count\":3}}},{\"buffer\":0,\"byteL\
-    ength\":6,\"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":0,\"byteOffset\":57,\"byteLength\":18,\"byteSt\
-    ride\":2,\"mode\":\"TRIANGLES\",\"count\":3}}},{\"buffer\":0,\"byteOffset\":75,\"byteLength\":4},{\"buffer\":0,\"byt\
-    eOffset\":79,\"byteLength\":12},{\"buffer\":0,\"byteOffset\":91,\"byteLength\":12},{\"buffer\":0,\"byteOffset\":1\
-    03,\"byteLength\":12}],\"buffers\":[{\"byteLength\":115,\"uri\":\"data:;base64,oAAAATwAAAD//wE8AAAAfn0AAAAAAA\
-    AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA4fAAdodWZ3iphmWJaJgBaQAAAgAAAAAAAAAAAIA/AAAAAAAAAAAAAA\
-    AAAAAAAP8AAAD/AAAA/wAAAA==\"}]}";
+const PACKED_GLTF: &str = "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0,\"skin\":0},{\
+    \"translation\":[1,0,0]}],\"skins\":[{\"joints\":[1]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\
+    \"POSITION\":0,\"JOINTS_0\":2,\"WEIGHTS_0\":3},\"indices\":1}]}],\"accessors\":[{\"bufferView\":0,\
+    \"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":2,\
+    \"componentType\":5121},\"values\":{\"bufferView\":3}}},{\"bufferView\":1,\"componentType\":5123,\
+    \"count\":3,\"type\":\"SCALAR\"},{\"bufferView\":4,\"componentType\":5121,\"count\":3,\"type\":\"VEC4\"},{\
+    \"bufferView\":5,\"componentType\":5121,\"count\":3,\"type\":\"VEC4\",\"normalized\":true}],\"bufferViews\":[\
+    {\"buffer\":0,\"byteLength\":36,\"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":0,\"byteOffset\":0,\
+    \"byteLength\":57,\"byteStride\":12,\"mode\":\"ATTRIBUTES\",\"count\":3}}},{\"buffer\":0,\"byteLength\":6,\
+    \"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":0,\"byteOffset\":57,\"byteLength\":18,\
+    \"byteStride\":2,\"mode\":\"TRIANGLES\",\"count\":3}}},{\"buffer\":0,\"byteOffset\":75,\"byteLength\":4},{\
+    \"buffer\":0,\"byteOffset\":79,\"byteLength\":12},{\"buffer\":0,\"byteOffset\":91,\"byteLength\":12},{\
+    \"buffer\":0,\"byteOffset\":103,\"byteLength\":12}],\"buffers\":[{\"byteLength\":115,\
+    \"uri\":\"data:;base64,oAAAATwAAAD//wE8AAAAfn0AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA4fAA\
+    dodWZ3iphmWJaJgBaQAAAgAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAAAAAP8AAAD/AAAA/wAAAA==\"}]}";
 
 /// Detached tetrahedra, outward, 100 mm apart.
 pub(crate) fn tetrahedra(n: u32) -> TriMesh {

@@ -17,6 +17,9 @@ use super::super::problem::GltfProblem;
 use super::buffers::{Buffers, Items};
 use super::malformed;
 
+/// Sets of four joints that a vertex may have: programs write one or two, and each takes its time.
+const MOST_SETS: usize = 8;
+
 /// Where the vertices of a mesh come to lie.
 pub(super) struct Placement<'a> {
     /// The global transform of its node.
@@ -74,7 +77,8 @@ impl Joints {
     ) -> Result<Vec<[Index<::gltf::json::Accessor>; 2]>, ReadError> {
         let attribute = |name: Semantic| primitive.attributes.get(&Checked::Valid(name)).copied();
         let sets = (0..).map_while(|set| Some((attribute(Semantic::Joints(set))?, attribute(Semantic::Weights(set)))));
-        sets.map(|(joints, weights)| Ok([joints, weights.ok_or_else(|| unfit(self.skin))?])).collect()
+        let sets = sets.take(MOST_SETS + 1).map(|(joints, weights)| Some([joints, weights?]));
+        sets.collect::<Option<Vec<_>>>().filter(|sets| sets.len() <= MOST_SETS).ok_or_else(|| unfit(self.skin))
     }
 
     /// Binds the `count` vertices of a primitive, whose accessors are prepared; `None` where it has no joints.
