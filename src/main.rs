@@ -27,6 +27,6 @@ fn window(arguments: &Arguments) -> ExitCode {
 
 #[cfg(not(feature = "gui"))]
 fn window(_: &Arguments) -> ExitCode {
-    eprintln!("lumen: this build has no window; see lumen --help for the subcommands");
+    eprintln!("lumen: this build was made without the window (feature gui); see lumen --help for the subcommands");
     ExitCode::from(2)
 }

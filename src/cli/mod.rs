@@ -8,6 +8,9 @@ mod branches;
 mod centreline;
 #[cfg(feature = "gui")]
 mod figures;
+#[cfg(not(feature = "gui"))]
+#[path = "no_figures.rs"]
+mod figures;
 mod inspect;
 mod interrupt;
 mod manual;
@@ -31,10 +34,10 @@ mod scan;
 #[cfg(not(feature = "scans"))]
 #[path = "no_scan.rs"]
 mod scan;
+mod scan_options;
 mod settings;
 mod sheet;
 mod source;
-#[cfg(feature = "scans")]
 mod surface;
 mod tables;
 mod trial;
@@ -72,7 +75,6 @@ pub enum Command {
     /// Write the centrelines of a surface with their radii and cross-sections
     Centreline(centreline::Centreline),
     /// Draw Figures 6 and 7 of the paper for a surface, as PNG
-    #[cfg(feature = "gui")]
     Figures(figures::Figures),
     /// Say what is in a surface file
     Inspect(inspect::Inspect),
@@ -88,7 +90,6 @@ pub enum Command {
     /// Write a page for the record, as PDF or HTML: fingerprint, settings, numbers, verdict, vessels, pictures
     Report(report::WriteReport),
     /// Write the surface in a scan or a mask
-    #[cfg(feature = "scans")]
     Surface(surface::Surface),
     /// Make Tables I and II of the paper for a surface, or III and IV, the paper's numbers beside them
     Tables(tables::Tables),
@@ -101,7 +102,6 @@ impl Command {
     pub fn run(&self) -> ExitCode {
         let result = match self {
             Self::Centreline(command) => command.run(),
-            #[cfg(feature = "gui")]
             Self::Figures(command) => command.run(),
             Self::Inspect(command) => command.run(),
             Self::Manual(command) => command.run(&Arguments::command()),
@@ -109,7 +109,6 @@ impl Command {
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
             Self::Report(command) => command.run(),
-            #[cfg(feature = "scans")]
             Self::Surface(command) => command.run(),
             Self::Tables(command) => command.run(),
             Self::Trial(command) => command.run(),

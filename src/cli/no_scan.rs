@@ -1,40 +1,36 @@
-//! Scans and masks in a build without their readers: there are no options for them, and no file is one.
+//! Scans and masks in a build without their readers: whatever is one is refused, by the name of the feature.
 
-use anyhow::Result;
-use clap::Args;
+use std::path::Path;
 
-use crate::io::Imported;
+use anyhow::{Error, Result, bail};
 
-/// A folder without surfaces is none of a scan's.
-pub(super) const FOLDER_HINT: &str = "";
+use super::scan_options::ScanOptions;
+use crate::io::{Imported, ReadError};
 
-/// None.
-#[derive(Clone, Debug, Default, Args)]
-pub(super) struct ScanOptions {}
+/// What is said of a folder without surfaces: it may be a scan.
+pub(super) const FOLDER_HINT: &str = "; a folder of DICOM takes a build with scans (feature scans)";
 
-impl ScanOptions {
-    /// Nothing is asked for.
-    pub(super) fn is_any(&self) -> bool {
-        false
-    }
+const MISSING: &str = "this build was made without scans and masks (feature scans)";
 
-    /// Nothing is.
-    pub(super) fn is_chosen(&self) -> bool {
-        false
-    }
+/// This build cannot.
+pub(super) fn check() -> Result<()> {
+    bail!(MISSING)
+}
 
-    /// There is nothing to refuse.
-    pub(super) fn refuse(&self, _: &str) -> Result<()> {
-        Ok(())
-    }
+/// Why a file is no surface: what is a scan another build may read.
+pub(super) fn refused(error: ReadError) -> Error {
+    if matches!(error, ReadError::ImageVolume { .. }) { Error::msg(MISSING) } else { error.into() }
 }
 
 /// There is no volume to open.
 pub(super) enum Opened {}
 
-/// No file is a volume.
-pub(super) fn open(_: &[String]) -> Result<Option<Opened>> {
-    Ok(None)
+/// No file is a volume, and a folder could be nothing else.
+pub(super) fn open(names: &[String]) -> Result<Option<Opened>> {
+    match names.iter().find(|name| Path::new(name).is_dir()) {
+        Some(folder) => bail!("{folder}: {MISSING}"),
+        None => Ok(None),
+    }
 }
 
 impl Opened {

@@ -13,7 +13,7 @@ use super::outputs::{Outcome, Outputs, told_with_remedies};
 use super::places::{output_format, write_whole};
 use super::rows::{row, shape_rows};
 use super::running::advance;
-use super::scan::ScanOptions;
+use super::scan_options::ScanOptions;
 use super::settings::{Asked, SettingsOptions};
 use super::written::WrittenOptions;
 use super::{batch, branches, interrupt, places, source};

@@ -11,7 +11,7 @@ use super::misuse::misuse;
 use super::places::write_whole;
 use super::rows::row;
 use super::running::{advance, run_through};
-use super::scan::ScanOptions;
+use super::scan_options::ScanOptions;
 use super::settings::SettingsOptions;
 use super::{interrupt, pictures, places, source};
 use crate::io::{Axes, Format};

@@ -7,7 +7,8 @@ use std::time::Duration;
 use anyhow::{Context, Result, bail};
 
 use super::interrupt;
-use super::scan::{self, ScanOptions};
+use super::scan;
+use super::scan_options::ScanOptions;
 use crate::io::{self, ImportOptions, Imported, Unit, UnknownUnit, Warning, read_in_slices};
 use crate::phantom::{self, Sample};
 use crate::sharing::Digest;
@@ -83,10 +84,10 @@ fn open(name: &str, unit: Option<UnitOption>, options: &ScanOptions) -> Result<(
         }
         Some(opened) => Ok((opened.surface(options).with_context(|| name.to_owned())?, None)),
         None => {
-            options.refuse(name)?;
             let bytes = Arc::new(std::fs::read(name).with_context(|| format!("cannot read {name}"))?);
             let read = |unit| surface(Arc::clone(&bytes), name, ImportOptions { unit });
             let mut imported = read(unit.and_then(UnitOption::given))?;
+            options.refuse(name)?;
             if unit == Some(UnitOption::Auto)
                 && let Some(unit) = imported.report.unit_by_size()
             {
@@ -105,7 +106,7 @@ fn surface(bytes: Arc<Vec<u8>>, name: &str, options: ImportOptions) -> Result<Im
     loop {
         interrupt::check()?;
         if let Progress::Done(read) = reading.advance(Budget::new(Duration::from_millis(50))) {
-            return read.with_context(|| name.to_owned());
+            return read.map_err(scan::refused).with_context(|| name.to_owned());
         }
     }
 }

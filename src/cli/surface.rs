@@ -7,7 +7,8 @@ use clap::Args;
 
 use super::places::{self, output_format, write_whole};
 use super::rows::row;
-use super::scan::{self, ScanOptions};
+use super::scan;
+use super::scan_options::ScanOptions;
 use crate::io::{self, Imported};
 
 /// Writes the surface of what reaches a threshold in a scan, or of a label of a mask, in mm; in LPS where the scan says how the patient lies.
@@ -25,6 +26,7 @@ pub struct Surface {
 impl Surface {
     /// Makes the surface and writes it.
     pub(super) fn run(&self) -> Result<()> {
+        scan::check()?;
         let format = output_format(&self.output)?;
         places::check(self.files.iter().map(Path::new), [("the surface".to_owned(), &*self.output)])?;
         let Some(opened) = scan::open(&self.files)? else {

@@ -50,6 +50,7 @@ pub(crate) fn valid() -> Vec<(&'static str, Vec<u8>)> {
         ("a.ply", ascii_ply.into()),
         ("a.ply", big_ply),
         ("a.gltf", gltf.into()),
+        ("a.gltf", PACKED_GLTF.into()),
         ("a.vtk", LEGACY_TEXT.into()),
         ("a.vtk", legacy_binary_51()),
         ("a.vtk", LEGACY_GRID.into()),
@@ -59,6 +60,23 @@ pub(crate) fn valid() -> Vec<(&'static str, Vec<u8>)> {
     files.extend(Coding::ALL.map(|coding| ("a.vtp", vtp(coding))));
     files
 }
+
+/// Three vertices packed by meshopt, one of them put in place of another (sparse), held by a joint.
+const PACKED_GLTF: &str = "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0,\"skin\":0},{\
+    \"translation\":[1,0,0]}],\"skins\":[{\"joints\":[1]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\
+    \"POSITION\":0,\"JOINTS_0\":2,\"WEIGHTS_0\":3},\"indices\":1}]}],\"accessors\":[{\"bufferView\":0,\
+    \"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":2,\
+    \"componentType\":5121},\"values\":{\"bufferView\":3}}},{\"bufferView\":1,\"componentType\":5123,\
+    \"count\":3,\"type\":\"SCALAR\"},{\"bufferView\":4,\"componentType\":5121,\"count\":3,\"type\":\"VEC4\"},{\
+    \"bufferView\":5,\"componentType\":5121,\"count\":3,\"type\":\"VEC4\",\"normalized\":true}],\"bufferViews\":[\
+    {\"buffer\":0,\"byteLength\":36,\"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":0,\"byteOffset\":0,\
+    \"byteLength\":57,\"byteStride\":12,\"mode\":\"ATTRIBUTES\",\"count\":3}}},{\"buffer\":0,\"byteLength\":6,\
+    \"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":0,\"byteOffset\":57,\"byteLength\":18,\
+    \"byteStride\":2,\"mode\":\"TRIANGLES\",\"count\":3}}},{\"buffer\":0,\"byteOffset\":75,\"byteLength\":4},{\
+    \"buffer\":0,\"byteOffset\":79,\"byteLength\":12},{\"buffer\":0,\"byteOffset\":91,\"byteLength\":12},{\
+    \"buffer\":0,\"byteOffset\":103,\"byteLength\":12}],\"buffers\":[{\"byteLength\":115,\
+    \"uri\":\"data:;base64,oAAAATwAAAD//wE8AAAAfn0AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA4fAA\
+    dodWZ3iphmWJaJgBaQAAAgAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAAAAAP8AAAD/AAAA/wAAAA==\"}]}";
 
 /// Detached tetrahedra, outward, 100 mm apart.
 pub(crate) fn tetrahedra(n: u32) -> TriMesh {

@@ -47,6 +47,51 @@ fn legacy_text_and_binary_of_both_layouts_are_read() {
     assert_eq!(report.axes, Axes::Unknown);
 }
 
+/// Curved faces, as VTK numbers them: points of each, and the area of its surface with no subdivision by VTK 9.6's
+/// `vtkDataSetSurfaceFilter`.
+const CURVED: [(u32, &str, f64); 10] = [
+    (22, TRIANGLE, 4050.0),
+    (34, TRIANGLE, 4050.0),
+    (69, TRIANGLE, 4050.0),
+    (76, TRIANGLE, 4050.0),
+    (36, TRIANGLE, 4050.0),
+    (23, SQUARE, 8100.0),
+    (28, SQUARE, 8100.0),
+    (30, LINEAR, 8100.0),
+    (70, SQUARE, 8100.0),
+    (77, SQUARE, 8100.0),
+];
+const TRIANGLE: &str = "0 0 0 90 0 0 0 90 0 45 0 0 45 45 0 0 45 0";
+const SQUARE: &str = "0 0 0 90 0 0 90 90 0 0 90 0 45 0 0 90 45 0 45 90 0 0 45 0 45 45 0";
+const LINEAR: &str = "0 0 0 90 0 0 90 90 0 0 90 0 45 0 0 45 90 0";
+
+#[test]
+fn curved_faces_of_a_grid_are_flat_between_their_corners() {
+    for (kind, points, area) in CURVED {
+        let count = points.split(' ').count() / 3;
+        let ids = (0..count).map(|id| id.to_string()).collect::<Vec<_>>().join(" ");
+        let legacy = format!(
+            "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {count} float\n{points}\n\
+             CELLS 1 {}\n{count} {ids}\nCELL_TYPES 1\n{kind}\nPOINT_DATA {count}\nSCALARS a int\nLOOKUP_TABLE default\n{ids}\n",
+            count + 1
+        );
+        let xml = VTU_TEXT
+            .replace(
+                "NumberOfPoints=\"4\" NumberOfCells=\"2\"",
+                &format!("NumberOfPoints=\"{count}\" NumberOfCells=\"1\""),
+            )
+            .replace("0 0 0 90 0 0 90 90 0 0 90 0<", &format!("{points}<"))
+            .replace("0 1 2 0 1 2 3<", &format!("{ids}<"))
+            .replace("3 7<", &format!("{count}<"))
+            .replace("5 10<", &format!("{kind}<"));
+        for text in [legacy, xml] {
+            let Imported { report, .. } = open(text.as_bytes());
+            assert_eq!(report.area_mm2, area, "{kind}: {text}");
+            assert_eq!(report.warnings[0].to_string(), "1 curved face taken as flat: only its corners are kept.");
+        }
+    }
+}
+
 #[test]
 fn flat_cells_of_a_grid_are_its_surface() {
     let Imported { report, .. } = open(LEGACY_GRID.as_bytes());

@@ -13,3 +13,5 @@ mod report;
 mod scans;
 mod settings;
 mod tables;
+#[cfg(not(feature = "scans"))]
+mod without_scans;

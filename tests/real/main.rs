@@ -11,6 +11,7 @@ mod import;
 mod measures;
 mod mending;
 mod pipeline;
+mod public;
 mod route;
 #[cfg(feature = "scans")]
 mod scans;
@@ -34,6 +35,7 @@ fn main() {
                 measures::trials,
                 mending::trials,
                 pipeline::trials,
+                public::trials,
                 spare_thin::trials,
                 route::trials,
                 smoothing::trials,

@@ -295,7 +295,6 @@ messages! {
         "errors-lzma" Lzma { bytes: u64 } => "LZMA with a dictionary of {bytes} bytes",
         "errors-extension" Extension { name: String } => "{name}",
         "errors-gltf-whole-positions" WholePositions => "positions of 32-bit whole numbers",
-        "errors-gltf-sparse" SparseAccessors => "sparse accessors",
         "scan-dimensions" NotThreeDimensions => "other than three dimensions",
         "scan-more-dimensions" MoreDimensions => "more than three dimensions",
         "scan-number-type" NumberType { kind: String } => "numbers of type {kind}",

@@ -21,6 +21,11 @@ pub(super) trait Numbers {
         None
     }
 
+    /// Whether the last `None` came from a word that is no number: it is passed over, as one that nothing needs.
+    fn pass_over(&mut self) -> bool {
+        self.fault().is_some()
+    }
+
     /// A row of an element ends here.
     fn end_row(&mut self) {}
 

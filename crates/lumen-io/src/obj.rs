@@ -11,7 +11,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use glam::DVec3;
+use memchr::{memchr_iter, memchr2};
 
+use super::columns::left_out;
 use super::error::ReadError;
 use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
 use super::memory_budget::MemoryBudget;
@@ -22,6 +24,7 @@ use super::problem::TextProblem;
 use super::raw::RawSurface;
 use super::text;
 use super::unit::Unit;
+use super::warnings::ArrayProblem;
 use lumen_mesh::arrays::{Association, Scalar, Values};
 use lumen_mesh::{Array, Vec3};
 
@@ -46,7 +49,7 @@ pub(super) static WRITTEN: Written = Written { write: |output| Ok(write(output))
 
 /// Whether a text without a telling name has vertices as OBJ writes them among its first lines.
 fn looks_like(bytes: &[u8]) -> bool {
-    let mut lines = bytes[..bytes.len().min(4096)].split(|&byte| byte == b'\n');
+    let mut lines = bytes[..bytes.len().min(4096)].split(|&byte| byte == b'\n' || byte == b'\r');
     text::is_text(bytes)
         && lines.any(|line| {
             let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
@@ -79,6 +82,8 @@ struct Reader {
     positions: Vec<Vec3>,
     faces: Faces,
     colours: Values,
+    /// Whether the colour of a vertex is no number.
+    has_spoilt_colour: bool,
     groups: Groups,
     lines: usize,
     points: usize,
@@ -94,6 +99,7 @@ impl Reader {
             positions: Vec::new(),
             faces: Faces::default(),
             colours: Values::new(Scalar::F32),
+            has_spoilt_colour: false,
             groups: Groups::default(),
             lines: 0,
             points: 0,
@@ -104,7 +110,7 @@ impl Reader {
 
     /// Takes a line.
     fn take(&mut self, line: usize, row: &[u8]) -> Result<(), ReadError> {
-        let mut words = row.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let mut words = words(row);
         let syntax = |problem: TextProblem| ReadError::syntax("OBJ", line, problem);
         match words.next() {
             Some(b"v") => {
@@ -114,11 +120,9 @@ impl Reader {
                     let broken = || syntax(TextProblem::NoCoordinate { word: text::quoted(word) });
                     *coordinate = text::coordinate(word, origin).ok_or_else(broken)?;
                 }
-                let colour: [Option<f32>; 3] = std::array::from_fn(|_| words.next().and_then(text::number));
-                if let ([Some(r), Some(g), Some(b)], None, true) =
-                    (colour, words.next(), self.colours.len() == 3 * self.positions.len())
-                {
-                    [r, g, b].iter().for_each(|&part| self.colours.push(f64::from(part)));
+                let colour: [Option<&[u8]>; 3] = std::array::from_fn(|_| words.next());
+                if let ([Some(r), Some(g), Some(b)], None) = (colour, words.next()) {
+                    self.add_colour([r, g, b]);
                 }
                 self.positions.push(Vec3::from(coordinates));
             }
@@ -153,6 +157,17 @@ impl Reader {
         Ok(())
     }
 
+    /// Takes the colour of the next vertex, where all before have one.
+    fn add_colour(&mut self, colour: [&[u8]; 3]) {
+        match colour.map(text::number::<f32>) {
+            [Some(r), Some(g), Some(b)] if self.colours.len() == 3 * self.positions.len() => {
+                [r, g, b].iter().for_each(|&part| self.colours.push(f64::from(part)));
+            }
+            [Some(_), Some(_), Some(_)] => {}
+            _ => self.has_spoilt_colour = true,
+        }
+    }
+
     /// The surface, once all lines are read, of a file of `file` bytes.
     fn surface(self, file: usize) -> Result<RawSurface, ReadError> {
         let (corner, face) = self.farthest;
@@ -167,6 +182,10 @@ impl Reader {
         let mut arrays = Vec::new();
         if self.colours.len() == 3 * raw.positions.len() {
             arrays.push(Array::new("RGB", Association::Point, 3, self.colours));
+        } else if self.has_spoilt_colour {
+            raw.warnings.push(left_out("RGB", ArrayProblem::NoNumber));
+        } else if !self.colours.is_empty() {
+            raw.warnings.push(left_out("RGB", ArrayProblem::NotEverywhere));
         }
         // The cell of a triangle is its group here.
         if raw.cells.iter().any(|group| raw.cells.first() != Some(group)) {
@@ -198,7 +217,20 @@ impl Groups {
     }
 }
 
-/// The lines of a text with their numbers, those that end in a backslash joined with the next.
+/// The words of a line, up to a comment.
+fn words(row: &[u8]) -> impl Iterator<Item = &[u8]> {
+    row[..comment(row).unwrap_or(row.len())].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// Where the comment in a line begins. Windows writes `1.#IND` where there is no number.
+fn comment(row: &[u8]) -> Option<usize> {
+    memchr_iter(b'#', row).find(|&at| at == 0 || row[at - 1] != b'.')
+}
+
+/// The lines of a text with their numbers, joined with the next where they go on there.
+///
+/// A backslash at the end says so only where numbers are wanted, and only if some follow: names of groups and materials
+/// end in one, too, as folders of Windows do.
 struct Lines<'a> {
     bytes: &'a [u8],
     /// Where the next one begins: behind the text where there is none.
@@ -207,26 +239,47 @@ struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
+    /// The next line of the text, which ends with a line feed, a carriage return or both.
     fn physical(&mut self) -> Option<&'a [u8]> {
         let rest = self.bytes.get(self.at..)?;
-        let length = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
-        self.at += length + 1;
+        let length = memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+        self.at += length + if rest[length..].starts_with(b"\r\n") { 2 } else { 1 };
         self.line += 1;
         Some(&rest[..length])
     }
 
     fn next(&mut self) -> Option<(usize, Cow<'a, [u8]>)> {
-        let number = self.line;
-        let mut line = Cow::Borrowed(self.physical()?);
-        while let Some(start) = line.trim_ascii_end().strip_suffix(b"\\") {
-            let length = start.trim_ascii_end().len();
+        let (number, first) = (self.line, self.physical()?);
+        let (mut line, mut part) = (Cow::Borrowed(first), first);
+        while let Some(start) = before_backslash(part).filter(|_| wants_numbers(first)) {
             let joined = line.to_mut();
-            joined.truncate(length);
+            joined.truncate(joined.len() - (part.len() - start.len()));
+            if !self.numbers_follow() {
+                break;
+            }
             joined.push(b' ');
-            joined.extend_from_slice(self.physical().unwrap_or_default());
+            part = self.physical().unwrap_or_default();
+            joined.extend_from_slice(part);
         }
         Some((number, line))
     }
+
+    /// Whether the next line begins with a number, or says no more than that it goes on itself.
+    fn numbers_follow(&self) -> bool {
+        let rest = self.bytes.get(self.at..).unwrap_or_default();
+        let first = rest.iter().find(|&&byte| byte != b' ' && byte != b'\t');
+        first.is_none_or(|byte| byte.is_ascii_digit() || b"+-.\\\r\n".contains(byte))
+    }
+}
+
+/// What stands before the backslash at the end of a line, if that is not in a comment.
+fn before_backslash(line: &[u8]) -> Option<&[u8]> {
+    line.trim_ascii_end().strip_suffix(b"\\").filter(|start| comment(start).is_none())
+}
+
+/// Whether a line is one of those that are read as numbers.
+fn wants_numbers(line: &[u8]) -> bool {
+    matches!(words(line).next(), Some(b"v" | b"f" | b"l" | b"p"))
 }
 
 /// The one array that is written, a colour behind the coordinates: the first that can be one.
@@ -291,6 +344,41 @@ mod tests {
         assert_eq!(raw.positions, [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y]);
         assert_eq!(raw.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2], [0, 2, 3]]);
         assert_eq!((raw.skipped.short_faces, raw.skipped.lines, raw.skipped.points), (1, 1, 1));
+    }
+
+    #[test]
+    fn a_backslash_goes_on_only_where_numbers_do() {
+        let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+        let count = |text: &str| read(format!("{square}{text}").as_bytes()).unwrap().triangles.len();
+        for name in ["# C:\\a\\", "g a\\", "o a \\", "usemtl \\", "mtllib C:\\", "s 1\\", "f 1 2 4 # \\", "f 1 2 4\\"] {
+            for end in ["\n", "\r\n", "\r", " \n"] {
+                let own = usize::from(name.starts_with('f'));
+                assert_eq!(count(&format!("{name}{end}f 1 2 3{end}f 1 3 4")), own + 2, "{name:?} {end:?}");
+            }
+        }
+        for end in ["\n", "\r\n", "\r", " \r\n"] {
+            assert_eq!(count(&format!("f 1 2\\{end}  3 \\{end}\\{end}4{end}")), 2, "{end:?}");
+        }
+    }
+
+    #[test]
+    fn colours_that_are_no_numbers_or_not_everywhere_are_left_out() {
+        let warned = |first: &str, last: &str| {
+            let text = format!("v 0 0 0 {first}\nv 1 0 0 0 0 1\nv 0 1 0 {last}\nf 1 2 3");
+            let raw = read(text.as_bytes()).unwrap();
+            assert_eq!((raw.triangles.len(), raw.arrays.is_empty()), (1, !raw.warnings.is_empty()));
+            crate::in_english(&raw.warnings).concat()
+        };
+        assert_eq!(warned("1 .5 0", "0 0 0"), "");
+        assert_eq!(warned("1.#IND 0 0", "0 0 0"), "The array \"RGB\" is left out: it holds what is no number.");
+        assert_eq!(warned("0 0 0", "0 0 -nan(ind)"), "The array \"RGB\" is left out: it holds what is no number.");
+        assert_eq!(warned("0 0 0", ""), "The array \"RGB\" is left out: not every part of the file has it.");
+    }
+
+    #[test]
+    fn comments_end_a_line_of_numbers() {
+        let raw = read(b"v 0 0 0 # a\nv 1 0 0 #2 3 4\nv 0 1 0#\nf 1 2 3 # 4\nf 3 2 1#").unwrap();
+        assert_eq!((raw.triangles, raw.arrays.len()), (vec![[0, 1, 2], [2, 1, 0]], 0));
     }
 
     #[test]

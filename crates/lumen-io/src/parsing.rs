@@ -8,7 +8,7 @@ use super::error::ReadError;
 use super::memory_budget::MemoryBudget;
 use super::pace::Pace;
 use super::raw::RawSurface;
-use super::{ImportOptions, Unit, far};
+use super::{ImportOptions, Unit, far, stl, text};
 use lumen_mesh::task::Yielder;
 
 /// The polygons in a file, the unit of its numbers and its axes.
@@ -21,6 +21,8 @@ pub(super) async fn parse(
     options: &ImportOptions,
     yielder: &Yielder,
 ) -> Result<Parsed, ReadError> {
+    let utf8 = if stl::has_binary_length(bytes) { None } else { text::from_utf16(bytes, yielder).await };
+    let bytes = utf8.as_deref().unwrap_or(bytes);
     let kind = detect(bytes, name)?;
     let unit = options.unit.unwrap_or(kind.unit);
     let pace = Pace::new(yielder, bytes.len());
@@ -33,7 +35,11 @@ pub(super) async fn parse(
         pace.rest(0.0).await;
         raw = (kind.parse)(bytes, unit, origin, &pace).await?;
     }
-    MemoryBudget::of(bytes.len()).check(raw.label, raw.positions.len(), raw.triangles.len())?;
+    MemoryBudget::of(bytes.len().saturating_add(raw.unpacked)).check(
+        raw.label,
+        raw.positions.len(),
+        raw.triangles.len(),
+    )?;
     let axes = if kind.axes_in_head { axes::stated(bytes) } else { raw.axes };
     Ok((raw, unit, axes))
 }
@@ -142,6 +148,20 @@ mod tests {
             match reading.advance(Budget::new(Duration::ZERO)) {
                 Progress::Working(fraction) => told.push(fraction),
                 Progress::Done(read) => return (read.unwrap(), told),
+            }
+        }
+    }
+
+    #[test]
+    fn texts_in_utf_16_are_read() {
+        let (_, files) = texts(0.0);
+        for (name, bytes) in files.into_iter().filter(|(name, _)| name.starts_with("text") || *name == "a.obj") {
+            let text = format!("\u{feff}{}", String::from_utf8(bytes.clone()).unwrap());
+            let options = ImportOptions::default();
+            let expected = read(&bytes, name, &options).unwrap();
+            for unit in [u16::to_le_bytes, u16::to_be_bytes] {
+                let wide: Vec<u8> = text.encode_utf16().flat_map(unit).collect();
+                assert_eq!(read(&wide, name, &options).unwrap(), expected, "{name}");
             }
         }
     }

@@ -28,6 +28,8 @@ pub(super) struct RawSurface {
     pub(super) axes: Axes,
     /// Whether the positions are in mm already, as those of a glTF scene, whose transforms take the unit with them.
     pub(super) in_mm: bool,
+    /// Bytes of what was packed beyond the file's own, as far as they count for its memory.
+    pub(super) unpacked: usize,
     pub(super) polygons: usize,
     pub(super) skipped: Skipped,
     pub(super) warnings: Vec<Warning>,
@@ -52,6 +54,7 @@ impl RawSurface {
             origin,
             axes,
             in_mm,
+            unpacked: 0,
             polygons: 0,
             skipped,
             warnings,

@@ -2,13 +2,15 @@
 //!
 //! Binary is recognised by its length, `84 + 50 n` bytes for n triangles, before anything else: many writers begin
 //! the free text of a binary header with "solid", which the crate `stl_io` takes for text; that is why the format is
-//! read here. Facet normals are not used: they are often wrong, and the winding says the same.
+//! read here. Where header and length do not agree, the length decides if it fits: writers that do not know the count in
+//! advance leave 0, 0xFFFFFFFF or an estimate there. Facet normals are not used: they are often wrong, and the winding says the same.
 
 use glam::DVec3;
 use lumen_message::messages;
 
 use super::error::{Counted, ReadError, WriteError};
 use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
+use super::import::FARTHEST_MM;
 use super::output::Output;
 use super::pace::Pace;
 use super::polygons::Faces;
@@ -23,6 +25,8 @@ use lumen_mesh::Vec3;
 const BLOCK: usize = 1 << 15;
 const HEADER: usize = 80;
 const FACET: usize = 50;
+/// Bytes after the last facet that are no part of a facet that was cut off.
+const FEW: usize = 8;
 const BINARY: &str = "STL binary";
 const ASCII: &str = "STL ascii";
 
@@ -40,14 +44,14 @@ pub(super) static KIND: FileKind = FileKind {
     ],
     parse: |bytes, _, origin, pace| Box::pin(read(bytes, origin, pace)),
     // Seven lines of text take 250 bytes.
-    triangles: |bytes| bytes.len() as u64 / if has_binary_length(bytes) { FACET as u64 } else { 250 },
+    triangles: |bytes| bytes.len() as u64 / if is_binary(bytes) { FACET as u64 } else { 250 },
 };
 
 /// STL as it is written.
 pub(super) static WRITTEN: Written = Written { write, arrays: Arrays::None };
 
 /// Whether `bytes` are exactly as long as the binary file that their header announces.
-fn has_binary_length(bytes: &[u8]) -> bool {
+pub(super) fn has_binary_length(bytes: &[u8]) -> bool {
     announced(bytes).is_some_and(|facets| binary_length(facets) == bytes.len() as u64)
 }
 
@@ -56,17 +60,18 @@ fn announced(bytes: &[u8]) -> Option<u32> {
     Some(u32::from_le_bytes(*bytes.get(HEADER..)?.first_chunk()?))
 }
 
+/// Whether a file that is STL is binary.
+fn is_binary(bytes: &[u8]) -> bool {
+    has_binary_length(bytes) || !text::is_text(bytes)
+}
+
 fn binary_length(facets: u32) -> u64 {
     (HEADER + 4) as u64 + FACET as u64 * u64::from(facets)
 }
 
 /// Reads a file of either kind; the text, which may have more digits than f32, with positions relative to an origin.
 pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
-    if !has_binary_length(bytes) && text::is_text(bytes) {
-        read_text(bytes, origin, pace).await
-    } else {
-        read_binary(bytes, pace).await
-    }
+    if is_binary(bytes) { read_binary(bytes, pace).await } else { read_text(bytes, origin, pace).await }
 }
 
 /// The binary form.
@@ -77,30 +82,52 @@ async fn read_binary(bytes: &[u8], pace: &Pace) -> Result<RawSurface, ReadError>
         announced,
         found: found as u64,
     };
-    let count = announced(bytes).ok_or_else(|| cut_short(Counted::HeaderBytes, 84, bytes.len()))?;
-    if binary_length(count) > bytes.len() as u64 {
-        return Err(cut_short(Counted::Triangles, u64::from(count), (bytes.len() - HEADER - 4) / FACET));
-    }
-    check_size(0, count as usize)?;
-    let mut positions = Vec::with_capacity(3 * count as usize);
-    let (body, trailing) = bytes[HEADER + 4..].split_at(FACET * count as usize);
+    let announced = announced(bytes).ok_or_else(|| cut_short(Counted::HeaderBytes, 84, bytes.len()))?;
+    let body = &bytes[HEADER + 4..];
+    let count = facet_count(announced, body)
+        .ok_or_else(|| cut_short(Counted::Triangles, u64::from(announced), body.len() / FACET))?;
+    check_size(0, count)?;
+    let mut positions = Vec::with_capacity(3 * count);
+    let (body, trailing) = body.split_at(FACET * count);
     for block in body.as_chunks::<FACET>().0.chunks(BLOCK) {
         for facet in block {
-            // A facet is its normal, its corners and two bytes of its own.
-            for corner in facet[12..48].as_chunks::<12>().0 {
-                let [x, y, z] =
-                    [0, 4, 8].map(|i| f32::from_le_bytes([corner[i], corner[i + 1], corner[i + 2], corner[i + 3]]));
-                positions.push(Vec3::new(x, y, z));
-            }
+            positions.extend(corners(facet));
         }
         pace.rest((FACET * block.len()) as f64).await;
     }
-    let triangles = (0..count).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let triangles = (0..count as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     let mut raw = RawSurface::new(BINARY, positions, triangles);
+    if announced as usize != count {
+        raw.warnings.push(Warning::StlCount { announced, found: count });
+    }
     if !trailing.is_empty() {
         raw.warnings.push(Warning::StlTrailing { bytes: trailing.len() });
     }
     Ok(raw)
+}
+
+/// The corners of a facet, which is its normal, these and two bytes of its own.
+fn corners(facet: &[u8; FACET]) -> [Vec3; 3] {
+    let number = |at: usize| f32::from_le_bytes([facet[at], facet[at + 1], facet[at + 2], facet[at + 3]]);
+    [12, 24, 36].map(|at| Vec3::new(number(at), number(at + 4), number(at + 8)))
+}
+
+/// How many facets a body has whose header announces so many; `None` where it is cut short.
+fn facet_count(announced: u32, body: &[u8]) -> Option<usize> {
+    let (whole, rest) = body.as_chunks::<FACET>();
+    match usize::try_from(announced) {
+        Ok(count) if count < whole.len() && !are_facets(&whole[count..]) => Some(count),
+        Ok(count) if count <= whole.len() => Some(whole.len()),
+        _ => (!whole.is_empty() && rest.len() <= FEW).then_some(whole.len()),
+    }
+}
+
+/// Whether what stands behind the facets that are announced can be facets, too: neither text nor padding.
+fn are_facets(more: &[[u8; FACET]]) -> bool {
+    let mut first = more.iter().take(BLOCK).map(corners);
+    // The comparison is false for NaN.
+    let is_place = |p: &Vec3| p.to_array().iter().all(|x| f64::from(x.abs()) <= FARTHEST_MM);
+    first.clone().all(|corners| corners.iter().all(is_place)) && first.any(|[a, b, c]| a != b && b != c && c != a)
 }
 
 /// The text form.
@@ -147,8 +174,8 @@ impl Solids {
             }
             self.in_loop = false;
         } else if is(b"solid") || is(b"endsolid") {
-            // What follows is a name, and a name may be any word.
-            words.skip_line();
+            // What follows is a name, and a name may be any word; but the whole file may be a single line.
+            words.skip_line_until(b"facet", b"normal");
             self.in_solid = is(b"solid");
         } else if is(b"facet") {
             self.in_solid = true;
@@ -245,6 +272,39 @@ mod tests {
         assert_eq!((raw.positions.len(), raw.triangles.len(), raw.polygons), (7, 3, 1));
         assert_eq!(raw.positions[2], Vec3::Y);
         assert!(raw.warnings.is_empty());
+    }
+
+    #[test]
+    fn text_of_a_single_line_is_read() {
+        let raw = read(TWO.replace('\n', " ").as_bytes()).unwrap();
+        assert_eq!((raw.positions.len(), raw.triangles.len(), raw.polygons), (7, 3, 1));
+        assert!(raw.warnings.is_empty());
+    }
+
+    #[test]
+    fn the_length_decides_where_the_count_is_wrong() {
+        let mesh = lumen_mesh::shapes::icosphere(2, 10.0, Vec3::ZERO);
+        let found = mesh.triangles.len();
+        let good = write(&Output::new(&mesh)).unwrap();
+        let with = |announced: u32, more: &[u8]| {
+            let mut bytes = [&good, more].concat();
+            bytes[80..84].copy_from_slice(&announced.to_le_bytes());
+            read(&bytes)
+        };
+        for announced in [0, 1, found as u32 / 2, found as u32 + 1, 2 * found as u32, u32::MAX] {
+            for more in [&b""[..], b"\n", b"\0\0\0\0"] {
+                let raw = with(announced, more).unwrap();
+                assert_eq!(raw.triangles.len(), found);
+                assert_eq!(raw.warnings[0], Warning::StlCount { announced, found });
+                assert_eq!(raw.warnings.len(), 1 + usize::from(!more.is_empty()));
+            }
+        }
+        // What can be no facets is none, and what ends within one is cut short.
+        for more in [[0; 512], [b'x'; 512]] {
+            let raw = with(found as u32, &more).unwrap();
+            assert_eq!((raw.triangles.len(), &raw.warnings[..]), (found, &[Warning::StlTrailing { bytes: 512 }][..]));
+        }
+        assert!(with(found as u32 + 1, &[0; 30]).is_err());
     }
 
     #[test]

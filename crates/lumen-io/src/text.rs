@@ -5,6 +5,9 @@
 use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
+use super::pace::BYTES;
+use lumen_mesh::task::Yielder;
+
 /// Base64 as files have it: with or without its padding.
 pub(super) const BASE64: GeneralPurpose = GeneralPurpose::new(
     &alphabet::STANDARD,
@@ -50,8 +53,27 @@ impl<'a> Words<'a> {
 
     /// Moves to the end of the current line.
     pub(super) fn skip_line(&mut self) {
+        self.at += self.line_left().len();
+    }
+
+    /// Moves to where a word stands before another in the current line, in any case, or to its end.
+    pub(super) fn skip_line_until(&mut self, word: &[u8], next: &[u8]) {
+        let mut line = Words::new(self.line_left(), 0);
+        let mut start = None;
+        while let Some(found) = line.next() {
+            if let Some(start) = start.filter(|_| found.eq_ignore_ascii_case(next)) {
+                self.at += start;
+                return;
+            }
+            start = found.eq_ignore_ascii_case(word).then(|| line.at - found.len());
+        }
+        self.skip_line();
+    }
+
+    /// What is left of the current line.
+    fn line_left(&self) -> &'a [u8] {
         let rest = &self.bytes[self.at..];
-        self.at += rest.iter().position(|&byte| byte == b'\n' || byte == b'\r').unwrap_or(rest.len());
+        &rest[..rest.iter().position(|&byte| byte == b'\n' || byte == b'\r').unwrap_or(rest.len())]
     }
 }
 
@@ -72,6 +94,27 @@ pub(super) fn quoted(word: &[u8]) -> String {
         Some((end, _)) => format!("\"{}...\"", &text[..end]),
         None => format!("\"{text}\""),
     }
+}
+
+/// A text in UTF-16 with its byte-order mark, as some editors save it, in UTF-8; `None` for any other bytes.
+pub(super) async fn from_utf16(bytes: &[u8], yielder: &Yielder) -> Option<Vec<u8>> {
+    let (mark, units) = bytes.split_first_chunk()?;
+    let unit: fn([u8; 2]) -> u16 = match mark {
+        b"\xff\xfe" => u16::from_le_bytes,
+        b"\xfe\xff" => u16::from_be_bytes,
+        _ => return None,
+    };
+    let units = units.as_chunks().0;
+    // Formats begin with a letter, a sign or white space.
+    units.first().filter(|&&first| (1..0x80).contains(&unit(first)))?;
+    let mut text = String::with_capacity(units.len());
+    for block in units.chunks(BYTES) {
+        // A letter of two units at the end of a block is lost: what is read has none.
+        let letters = char::decode_utf16(block.iter().map(|&bytes| unit(bytes)));
+        text.extend(letters.map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER)));
+        yielder.rest(0.0).await;
+    }
+    Some(text.into_bytes())
 }
 
 /// `bytes` without the byte-order mark that some editors put before a text.

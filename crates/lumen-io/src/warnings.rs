@@ -13,6 +13,8 @@ messages! {
     #[allow(missing_docs, reason = "its sentence says what each is")]
     pub enum Warning {
         "errors-stl-trailing" StlTrailing { bytes: usize } => "{bytes} bytes after the last triangle left out.",
+        "errors-stl-count" StlCount { announced: u32, found: usize } =>
+            "The number of triangles that the file announces ({announced}) does not go with its length: {found} read.",
         "errors-stl-open" StlOpen => "The file may be cut short: its last solid has no end.",
         "errors-ply-trailing" PlyTrailing { bytes: usize } => "{bytes} bytes after the last element left out.",
         "errors-ply-unannounced" PlyUnannounced =>
@@ -20,6 +22,11 @@ messages! {
         "errors-ply-more-numbers" PlyMoreNumbers => "Numbers after the last element were left out.",
         "errors-vtk-solids-left-out" SolidCells { cells: u64 } =>
             "{cells} solid or curved cells left out: Lumen shows surfaces.",
+        "errors-vtk-curved" CurvedCells { count: usize } => (
+            count,
+            "{count} curved face taken as flat: only its corners are kept.",
+            "{count} curved faces taken as flat: only their corners are kept."
+        ),
         "errors-fanned" Fanned { count: usize } => (
             count,
             "{count} polygon could not be cut into triangles without folding, having no area or crossing itself.",

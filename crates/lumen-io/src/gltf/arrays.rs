@@ -6,10 +6,7 @@
 //! exactly or where they are no labels; doubles as floats. What fits in neither way, and arrays of triangles, have no place
 //! in glTF.
 
-use std::collections::BTreeMap;
-
 use ::gltf::json::accessor::ComponentType;
-use serde::Deserialize;
 
 use lumen_mesh::Array;
 use lumen_mesh::arrays::{Association, Kind, Scalar, Values};
@@ -105,35 +102,4 @@ fn written_as(array: &Array) -> Option<Scalar> {
 /// colour.
 pub(super) fn array_name(attribute: &str) -> Option<&str> {
     attribute.strip_prefix('_').or(attribute.starts_with("COLOR_").then_some(attribute))
-}
-
-/// The attributes of each primitive of each mesh by their names, which `gltf::json` keeps only of those that the
-/// specification names.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Names {
-    meshes: Vec<NamedMesh>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct NamedMesh {
-    primitives: Vec<NamedPrimitive>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct NamedPrimitive {
-    attributes: BTreeMap<String, u32>,
-}
-
-impl Names {
-    /// None where the JSON is not as it should be, which is said elsewhere.
-    pub(super) fn of(json: &[u8]) -> Self {
-        serde_json::from_slice(json).unwrap_or_default()
-    }
-
-    pub(super) fn of_primitive(&self, mesh: usize, primitive: usize) -> Option<&BTreeMap<String, u32>> {
-        Some(&self.meshes.get(mesh)?.primitives.get(primitive)?.attributes)
-    }
 }

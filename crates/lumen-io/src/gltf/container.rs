@@ -7,7 +7,6 @@ use super::super::error::{Counted, Feature, ReadError};
 use super::super::pace::Pace;
 use super::super::problem::GltfProblem;
 use super::super::raw::RawSurface;
-use super::super::text;
 use super::malformed;
 use super::scene::read_scene;
 
@@ -51,5 +50,5 @@ pub(super) async fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3, pace: &
 
 /// Reads a glTF text that carries its own data; its positions come in mm, relative to `origin`.
 pub(super) async fn read_text(bytes: &[u8], unit: Unit, origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
-    read_scene("glTF", text::without_mark(bytes), None, unit, bytes.len(), origin, pace).await
+    read_scene("glTF", bytes, None, unit, bytes.len(), origin, pace).await
 }

@@ -7,19 +7,22 @@
 //! for before being multiplied in f64. So 0.001 times 1000 is exactly 1, and a surface that Lumen wrote, in mm under
 //! a node scale of 0.001, reads back to the same bits.
 //!
-//! Draco and meshopt compression are refused by name: of Draco there is no decoder in Rust alone (`draco_decoder` binds the
-//! C++ one, `draco-oxide` has only the encoder yet), and of meshopt's `meshopt` binds C++ and `meshoptimizer-rs` is a young port
-//! (0.2); surfaces are read in the browser's first visit, which has no room to spare for them.
+//! Draco compression is refused by name: there is no decoder in Rust alone (`draco_decoder` binds the C++ one,
+//! `draco-oxide` has only the encoder yet). Meshopt compression is read (`unpack`). A skinned mesh stands as its skeleton
+//! does in the file (`skin`); animations and morph targets are passed over.
 //!
 //! By the specification (3.4) y is up, and the front of what is shown looks along z. Lumen has z up, as patients' axes do,
 //! and the front towards -y: what is read is turned by a right angle about x, what is written is turned back.
 
 mod arrays;
+mod beyond;
 mod buffers;
 mod container;
 mod primitive;
 mod problem;
 mod scene;
+mod skin;
+mod unpack;
 mod write;
 
 use super::error::ReadError;

@@ -7,25 +7,23 @@ use ::gltf::json::accessor::{ComponentType, Type};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index, Root};
-use glam::{DMat4, DVec3};
+use glam::DVec3;
 
 use super::super::columns::Columns;
 use super::super::error::{Feature, ReadError};
-use super::super::memory_budget::MemoryBudget;
 use super::super::pace::{NUMBERS, Pace};
 use super::super::problem::GltfProblem;
 use super::super::raw::RawSurface;
 use super::super::warnings::ArrayProblem;
 use super::arrays::array_name;
 use super::buffers::Buffers;
+use super::skin::Placement;
 use super::{FORMAT, malformed};
 use lumen_mesh::arrays::{Association, Scalar, Values};
 
 /// What has been read so far.
 pub(super) struct Collected<'a> {
     pub(super) raw: RawSurface,
-    /// A mesh may be placed many times over by a few bytes each; this is as much as a file may grow by that.
-    pub(super) room: MemoryBudget,
     /// The attributes that are arrays, and the bytes that they take.
     pub(super) columns: Columns,
     pub(super) array_bytes: u64,
@@ -33,14 +31,14 @@ pub(super) struct Collected<'a> {
 }
 
 impl Collected<'_> {
-    /// Adds one primitive, placed by `to_world`; `names` has its attributes.
+    /// Adds one primitive; `names` has its attributes.
     pub(super) async fn add(
         &mut self,
         root: &Root,
-        buffers: &Buffers<'_>,
+        buffers: &mut Buffers<'_>,
         primitive: &Primitive,
         names: Option<&BTreeMap<String, u32>>,
-        to_world: DMat4,
+        placement: &Placement<'_>,
     ) -> Result<(), ReadError> {
         let Checked::Valid(mode) = primitive.mode else {
             return Err(malformed(GltfProblem::DrawingMode));
@@ -58,7 +56,7 @@ impl Collected<'_> {
             Mode::LineStrip => skipped.lines = skipped.lines.saturating_add(elements.saturating_sub(1)),
             Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {
                 let vertices = self.raw.positions.len();
-                self.add_triangles(root, buffers, primitive, positions, mode, to_world).await?;
+                self.add_triangles(root, buffers, primitive, positions, mode, placement).await?;
                 let count = self.raw.positions.len() - vertices;
                 let arrays = names.into_iter().flatten().filter_map(|(name, &at)| Some((array_name(name)?, at)));
                 for (name, accessor) in arrays {
@@ -77,7 +75,7 @@ impl Collected<'_> {
     async fn values(
         &mut self,
         root: &Root,
-        buffers: &Buffers<'_>,
+        buffers: &mut Buffers<'_>,
         accessor: Index<Accessor>,
         count: usize,
     ) -> Result<(usize, Values), ArrayProblem> {
@@ -88,12 +86,14 @@ impl Collected<'_> {
         if !matches!(shape, Type::Scalar | Type::Vec2 | Type::Vec3 | Type::Vec4) {
             return Err(ArrayProblem::Matrices);
         }
+        buffers.prepare(root, accessor, self.pace).await.map_err(|_| DAMAGED)?;
         let items = buffers.items(root, accessor, shape).map_err(|_| DAMAGED)?;
         if items.count != count {
             return Err(ArrayProblem::OtherLength);
         }
         let bytes = self.array_bytes.saturating_add((items.count * items.size) as u64);
-        if !self.room.holds_arrays(self.raw.positions.len(), self.raw.triangles.len(), bytes) {
+        // A mesh may be placed many times over by a few bytes each.
+        if !buffers.budget().holds_arrays(self.raw.positions.len(), self.raw.triangles.len(), bytes) {
             return Err(ArrayProblem::Memory);
         }
         self.array_bytes = bytes;
@@ -116,13 +116,20 @@ impl Collected<'_> {
     async fn add_triangles(
         &mut self,
         root: &Root,
-        buffers: &Buffers<'_>,
+        buffers: &mut Buffers<'_>,
         primitive: &Primitive,
         positions: Index<Accessor>,
         mode: Mode,
-        to_world: DMat4,
+        placement: &Placement<'_>,
     ) -> Result<(), ReadError> {
+        let joints = placement.joints;
+        let bound = joints.map(|joints| joints.accessors(primitive)).transpose()?.unwrap_or_default();
+        for accessor in [positions].into_iter().chain(primitive.indices).chain(bound.into_iter().flatten()) {
+            buffers.prepare(root, accessor, self.pace).await?;
+        }
+        let buffers = &*buffers;
         let positions = buffers.items(root, positions, Type::Vec3)?;
+        let bound = joints.map(|joints| joints.bind(root, buffers, primitive, positions.count)).transpose()?.flatten();
         if positions.component == ComponentType::U32 {
             let feature = Feature::WholePositions;
             return Err(ReadError::Unsupported { format: FORMAT, feature });
@@ -131,16 +138,27 @@ impl Collected<'_> {
         let corners = indices.as_ref().map_or(positions.count, |indices| indices.count);
         let more = if mode == Mode::Triangles { corners / 3 } else { corners };
         let (vertices, triangles) = (self.raw.positions.len(), self.raw.triangles.len());
-        self.room.check(FORMAT, vertices.saturating_add(positions.count), triangles.saturating_add(more))?;
+        buffers.budget().check(FORMAT, vertices.saturating_add(positions.count), triangles.saturating_add(more))?;
         let base = self.raw.positions.len() as u32;
         self.raw.positions.reserve(positions.count);
         for block in positions.blocks() {
-            self.raw.positions.extend(block.clone().map(|i| {
+            let place = |i: usize| {
                 let item = positions.item(i);
                 let size = item.len() / 3;
                 let [x, y, z] = [0, 1, 2].map(|i| positions.number(&item[i * size..(i + 1) * size]));
-                to_world.transform_point3(DVec3::new(x, y, z)).as_vec3()
-            }));
+                DVec3::new(x, y, z)
+            };
+            match &bound {
+                None => {
+                    let placed = block.clone().map(|i| placement.node.transform_point3(place(i)).as_vec3());
+                    self.raw.positions.extend(placed);
+                }
+                Some(bound) => {
+                    for i in block.clone() {
+                        self.raw.positions.push(bound.matrix(i)?.transform_point3(place(i)).as_vec3());
+                    }
+                }
+            }
             self.pace.rest(positions.done(&block)).await;
         }
         let order: Vec<u32> = match indices {
@@ -152,7 +170,8 @@ impl Collected<'_> {
             return Err(ReadError::IndexOutOfRange { format: FORMAT, face, index, vertices: positions.count });
         }
         // A mirror turns triangles inside out; the specification has them turned back.
-        let mirrored = to_world.determinant() < 0.0;
+        let first = bound.as_ref().filter(|_| positions.count > 0).map(|bound| bound.matrix(0)).transpose()?;
+        let mirrored = first.unwrap_or(placement.node).determinant() < 0.0;
         let place = |t: [u32; 3]| {
             let [a, b, c] = t.map(|v| base + v);
             if mirrored { [a, c, b] } else { [a, b, c] }

@@ -22,6 +22,8 @@ messages! {
         "errors-gltf-accessor-empty" AccessorEmpty { accessor: usize } => "accessor {accessor} has no data",
         "errors-gltf-accessor-beyond" AccessorBeyond { accessor: usize } => "accessor {accessor} lies beyond the end of the data",
         "errors-gltf-accessor-overlap" AccessorOverlap { accessor: usize } => "accessor {accessor} has items that overlap",
+        "errors-gltf-packed" Packed { view: usize } => "its compressed view {view} is damaged, or of a kind that is not read",
+        "errors-gltf-skin" Skin { skin: usize } => "skin {skin} does not fit the scene or the mesh that it moves",
         "errors-gltf-indices" Indices => "its vertex numbers are not whole numbers without sign",
     }
 }

@@ -1,6 +1,8 @@
 //! The scene of a glTF file: its tree of nodes, each of which places meshes.
 
-use ::gltf::json::{Index, Node, Root, deserialize};
+use std::collections::BTreeMap;
+
+use ::gltf::json::{Index, Mesh, Node, Root, deserialize};
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use super::super::Unit;
@@ -10,9 +12,11 @@ use super::super::memory_budget::MemoryBudget;
 use super::super::pace::Pace;
 use super::super::problem::GltfProblem;
 use super::super::raw::RawSurface;
-use super::arrays::Names;
+use super::super::text;
+use super::beyond::Beyond;
 use super::buffers::Buffers;
 use super::primitive::Collected;
+use super::skin::{Joints, Placement};
 use super::{FORMAT, malformed};
 
 /// Collects every triangle of the scene that opens first, through its tree of nodes.
@@ -25,6 +29,9 @@ pub(super) async fn read_scene(
     origin: DVec3,
     pace: &Pace,
 ) -> Result<RawSurface, ReadError> {
+    // Some pad the JSON of a GLB with zeros, where spaces should be.
+    let json = text::without_mark(json);
+    let json = &json[..json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1)];
     let room = MemoryBudget::of(file_length);
     room.check_parts(FORMAT, json.iter().filter(|&&byte| byte == b'{').count())?;
     pace.rest(0.0).await;
@@ -34,56 +41,72 @@ pub(super) async fn read_scene(
         let (line, column) = (error.line(), error.column());
         malformed(GltfProblem::Json { line, column })
     })?;
-    let compressions = ["KHR_draco_mesh_compression", "EXT_meshopt_compression"];
-    if let Some(feature) = root.extensions_required.iter().find(|name| compressions.contains(&name.as_str())) {
+    if let Some(feature) = root.extensions_required.iter().find(|name| *name == "KHR_draco_mesh_compression") {
         return Err(ReadError::Unsupported { format: FORMAT, feature: Feature::Extension { name: feature.clone() } });
     }
     pace.rest(0.0).await;
-    let names = Names::of(json);
+    let mut beyond = Beyond::of(json);
     pace.rest(0.0).await;
-    let buffers = Buffers::new(&root, binary, pace).await?;
+    let mut buffers = Buffers::new(&root, binary, beyond.take_packed(), file_length, pace).await?;
     let raw = RawSurface::new(label, Vec::new(), Vec::new());
-    let mut collected = Collected { raw, room, columns: Columns::default(), array_bytes: 0, pace };
+    let mut collected = Collected { raw, columns: Columns::default(), array_bytes: 0, pace };
     collected.raw.in_mm = true;
     (collected.raw.has_doubles, collected.raw.origin) = (root.nodes.iter().any(is_moved), origin);
     let to_mm = DMat4::from_translation(-origin) * upright() * DMat4::from_scale(DVec3::splat(unit.to_mm()));
 
-    let scene = root.scene.or((!root.scenes.is_empty()).then(|| Index::new(0)));
-    let mut stack: Vec<(Index<Node>, DMat4)> = Vec::new();
-    match scene {
-        Some(scene) => {
-            let scene = root.get(scene).ok_or_else(|| malformed(GltfProblem::NoScene))?;
-            stack.extend(scene.nodes.iter().rev().map(|&node| (node, to_mm)));
+    let tree = Tree::of(&root, to_mm)?;
+    let mut skins = BTreeMap::new();
+    for (mesh, placed) in &tree.meshes {
+        let m = mesh.value();
+        let mesh = root.get(*mesh).ok_or_else(|| malformed(GltfProblem::NoMesh { mesh: m }))?;
+        let skin = placed.and_then(|node| root.nodes[node].skin);
+        if let Some(skin) = skin.filter(|skin| !skins.contains_key(&skin.value())) {
+            skins.insert(skin.value(), Joints::of(&root, &mut buffers, skin, &tree.globals, pace).await?);
         }
-        // A library of meshes that are placed nowhere.
-        None => {
-            for (m, mesh) in root.meshes.iter().enumerate() {
-                for (p, primitive) in mesh.primitives.iter().enumerate() {
-                    collected.add(&root, &buffers, primitive, names.of_primitive(m, p), to_mm).await?;
-                }
-            }
+        let joints = skin.and_then(|skin| skins.get(&skin.value()));
+        let node = placed.and_then(|node| tree.globals[node]).unwrap_or(to_mm);
+        let placement = Placement { node, joints };
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            collected.add(&root, &mut buffers, primitive, beyond.attributes(m, p), &placement).await?;
         }
-    }
-    let mut visited = vec![false; root.nodes.len()];
-    while let Some((index, parent)) = stack.pop() {
-        let number = index.value();
-        let node = root.get(index).ok_or_else(|| malformed(GltfProblem::NoNode { node: number }))?;
-        if std::mem::replace(&mut visited[index.value()], true) {
-            return Err(malformed(GltfProblem::NodeTwice { node: number }));
-        }
-        let to_world = parent * transform(node);
-        if let Some(mesh) = node.mesh {
-            let m = mesh.value();
-            let mesh = root.get(mesh).ok_or_else(|| malformed(GltfProblem::NoMesh { mesh: m }))?;
-            for (p, primitive) in mesh.primitives.iter().enumerate() {
-                collected.add(&root, &buffers, primitive, names.of_primitive(m, p), to_world).await?;
-            }
-        }
-        stack.extend(node.children.iter().flatten().rev().map(|&child| (child, to_world)));
     }
     let Collected { mut raw, columns, .. } = collected;
-    raw.carry(columns.finish(), room);
+    raw.unpacked = buffers.unpacked_bytes();
+    raw.carry(columns.finish(), buffers.budget());
     Ok(raw)
+}
+
+/// The nodes of the scene that opens first.
+struct Tree {
+    /// The global transform of each node of the file that is in the scene.
+    globals: Vec<Option<DMat4>>,
+    /// The meshes in the order of the tree, with their nodes; all of the file where it has no scene.
+    meshes: Vec<(Index<Mesh>, Option<usize>)>,
+}
+
+impl Tree {
+    /// Walks from the root of the scene, which `to_mm` places.
+    fn of(root: &Root, to_mm: DMat4) -> Result<Self, ReadError> {
+        let (mut globals, mut meshes) = (vec![None; root.nodes.len()], Vec::new());
+        let Some(scene) = root.scene.or((!root.scenes.is_empty()).then(|| Index::new(0))) else {
+            // A library of meshes that are placed nowhere.
+            meshes.extend((0..root.meshes.len()).map(|mesh| (Index::new(mesh as u32), None)));
+            return Ok(Self { globals, meshes });
+        };
+        let scene = root.get(scene).ok_or_else(|| malformed(GltfProblem::NoScene))?;
+        let mut stack: Vec<(Index<Node>, DMat4)> = scene.nodes.iter().rev().map(|&node| (node, to_mm)).collect();
+        while let Some((index, parent)) = stack.pop() {
+            let number = index.value();
+            let node = root.get(index).ok_or_else(|| malformed(GltfProblem::NoNode { node: number }))?;
+            let global = parent * transform(node);
+            if globals[number].replace(global).is_some() {
+                return Err(malformed(GltfProblem::NodeTwice { node: number }));
+            }
+            meshes.extend(node.mesh.map(|mesh| (mesh, Some(number))));
+            stack.extend(node.children.iter().flatten().rev().map(|&child| (child, global)));
+        }
+        Ok(Self { globals, meshes })
+    }
 }
 
 /// From a scene with y up and its front towards z to one with z up and its front towards -y.

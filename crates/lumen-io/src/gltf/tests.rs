@@ -98,11 +98,125 @@ fn quantised_positions_are_those_that_they_stand_for() {
 }
 
 #[test]
-fn compressed_meshes_are_refused_by_the_name_of_the_compression() {
-    for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression"] {
-        let text = square("{\"mesh\":0}", "").replacen('{', &format!("{{\"extensionsRequired\":[\"{name}\"],"), 1);
-        let error = read(&text).err().unwrap().to_string();
-        assert_eq!(error, format!("The glTF file uses {name}, which Lumen does not read."));
+fn draco_is_refused_by_its_name() {
+    let name = "KHR_draco_mesh_compression";
+    let text = square("{\"mesh\":0}", "").replacen('{', &format!("{{\"extensionsRequired\":[\"{name}\"],"), 1);
+    let error = read(&text).err().unwrap().to_string();
+    assert_eq!(error, format!("The glTF file uses {name}, which Lumen does not read."));
+}
+
+/// A bent strip of 16 triangles, from 1 m to -1 m, that the encoder of the npm package `meshoptimizer` has packed: places in
+/// 16 bits, under a node that takes them back to metres.
+fn strip(extension: &str) -> String {
+    let places = BASE64
+        .decode("oVWvAFRV+U8qgXCNngEAVQBUVQcTHyctLSsBACMAVFUsDizDOk62AQCqAFRVLioiGAoDEQEAHQAgHyAfIB8gHyAfIB8gHyAfIABOTU5NTk1OTU5NTk1OTU5NTgAAAAAAAAAAAAAAAAAAUMMwdTB1AAAAAA==")
+        .unwrap();
+    let triangles = BASE64.decode("4f4eHg4eDh4OHg4eDh4OHg7wBAB2h1ZneKmGZYlomAFpAAA=").unwrap();
+    let [at, places_length, length] = [places.len(), places.len(), triangles.len()];
+    let data = BASE64.encode([places, triangles].concat());
+    format!(
+        "{{\"asset\":{{\"version\":\"2.0\"}},\"extensionsRequired\":[\"KHR_mesh_quantization\",\"{extension}\"],\
+         \"nodes\":[{{\"mesh\":0,\"scale\":[5e-5,5e-5,5e-5],\"translation\":[-1.5,-1.5,-1.5]}}],\
+         \"scenes\":[{{\"nodes\":[0]}}],\"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0}},\"indices\":1}}]}}],\
+         \"accessors\":[{{\"bufferView\":0,\"componentType\":5123,\"count\":18,\"type\":\"VEC3\"}},\
+         {{\"bufferView\":1,\"componentType\":5123,\"count\":48,\"type\":\"SCALAR\"}}],\"bufferViews\":[\
+         {{\"buffer\":1,\"byteLength\":144,\"byteStride\":8,\"extensions\":{{\"{extension}\":{{\"buffer\":0,\
+         \"byteLength\":{places_length},\"byteStride\":8,\"mode\":\"ATTRIBUTES\",\"count\":18}}}}}},\
+         {{\"buffer\":1,\"byteOffset\":144,\"byteLength\":96,\"extensions\":{{\"{extension}\":{{\"buffer\":0,\"byteOffset\":{at},\
+         \"byteLength\":{length},\"byteStride\":2,\"mode\":\"TRIANGLES\",\"count\":48}}}}}}],\"buffers\":[\
+         {{\"byteLength\":{},\"uri\":\"data:;base64,{data}\"}},{{\"byteLength\":240}}]}}",
+        at + length
+    )
+}
+
+#[test]
+fn meshopt_is_unpacked_into_places_and_triangles() {
+    for extension in ["EXT_meshopt_compression", "KHR_meshopt_compression"] {
+        let raw = read(&strip(extension)).unwrap();
+        assert_eq!((raw.positions.len(), raw.triangles.len()), (18, 16));
+        for (i, p) in raw.positions.iter().enumerate() {
+            let (along, turn) = ((i % 2) as f32 * 500.0, (i / 2) as f32 * 0.3);
+            let place = Vec3::new(1000.0 * turn.cos(), -along, 1000.0 * turn.sin());
+            assert!(p.distance(place) < 0.05, "{i}: {p} is not {place}");
+        }
+        assert_eq!(raw.triangles[..2], [[0, 2, 1], [1, 2, 3]]);
+        let damaged = strip(extension).replace("\"count\":48}}", "\"count\":45}}");
+        let error = read(&damaged).err().unwrap().to_string();
+        assert_eq!(error, "The glTF file is broken: its compressed view 1 is damaged, or of a kind that is not read.");
+        let bomb = strip(extension).replace("\"count\":18}}", "\"count\":18000000}}");
+        assert!(read(&bomb).err().unwrap().to_string().contains("would unfold to"));
+    }
+}
+
+/// A text with a second buffer that holds `data`, in views of so many bytes each, the first of which is view 2.
+fn with_data(text: &str, data: &[u8], views: &[usize]) -> String {
+    let (mut at, mut more) = (0, String::new());
+    for length in views {
+        more += &format!(",{{\"buffer\":1,\"byteOffset\":{at},\"byteLength\":{length}}}");
+        at += length;
+    }
+    let text = text.replace("],\"buffers\":[", &format!("{more}],\"buffers\":["));
+    let buffer = format!("{{\"byteLength\":{at},\"uri\":\"data:;base64,{}\"}}", BASE64.encode(data));
+    format!("{},{buffer}]}}", text.strip_suffix("]}").unwrap())
+}
+
+#[test]
+fn sparse_items_stand_in_place_of_others_or_of_zeros() {
+    let values = [[5f32, 0.0, 0.0], [5.0, 5.0, 0.0]];
+    let square =
+        with_data(&square("{\"mesh\":0}", ",\"mode\":5"), &[&[1, 3], bytemuck::bytes_of(&values)].concat(), &[2, 24]);
+    let sparse =
+        "\"sparse\":{\"count\":2,\"indices\":{\"bufferView\":2,\"componentType\":5121},\"values\":{\"bufferView\":3}},";
+    let over_view = square.replacen("{\"bufferView\":0,", &format!("{{\"bufferView\":0,{sparse}"), 1);
+    let over_zeros = square.replacen("{\"bufferView\":0,", &format!("{{{sparse}"), 1);
+    let [x, z] = [Vec3::X, Vec3::Z].map(|axis| axis * 1000.0);
+    assert_eq!(read(&over_view).unwrap().positions, [Vec3::ZERO, x * 5.0, z, (x + z) * 5.0]);
+    assert_eq!(read(&over_zeros).unwrap().positions, [Vec3::ZERO, x * 5.0, Vec3::ZERO, (x + z) * 5.0]);
+    for (count, problem) in [("3", "accessor 0 lies beyond"), ("400000000", "would unfold to")] {
+        let wrong =
+            over_zeros.replace("\"count\":4,\"type\":\"VEC3\"", &format!("\"count\":{count},\"type\":\"VEC3\""));
+        assert!(read(&wrong).err().unwrap().to_string().contains(problem));
+    }
+}
+
+#[test]
+fn joints_place_a_skinned_mesh_and_its_node_does_not() {
+    // The vertices are held by the first joint, the second, both alike, and none.
+    let joints: [[u8; 4]; 4] = [[0, 1, 0, 0], [1, 0, 0, 0], [0, 1, 0, 0], [1, 0, 0, 0]];
+    let weights: [[u8; 4]; 4] = [[255, 0, 0, 0], [255, 0, 0, 0], [64, 64, 0, 0], [0; 4]];
+    let nodes = "{\"children\":[1],\"scale\":[7,7,7],\"mesh\":0,\"skin\":0},{},{\"translation\":[2,0,0]}";
+    let accessor = "\"componentType\":5121,\"count\":4,\"type\":\"VEC4\"";
+    let text = square(nodes, ",\"mode\":5")
+        .replace("\"nodes\":[0]", "\"nodes\":[0,2]")
+        .replace("\"POSITION\":0", "\"POSITION\":0,\"JOINTS_0\":2,\"WEIGHTS_0\":3")
+        .replace("\"meshes\"", "\"skins\":[{\"joints\":[2,1]}],\"meshes\"")
+        .replace(
+            "],\"bufferViews\"",
+            &format!(
+                ",{{\"bufferView\":2,{accessor}}},{{\"bufferView\":3,{accessor},\"normalized\":true}}],\"bufferViews\""
+            ),
+        );
+    let text = with_data(&text, &[joints.as_flattened(), weights.as_flattened()].concat(), &[16, 16]);
+    // The first joint is moved by 2 m; the second hangs from a node that is seven times as large, which counts for it.
+    let [x, z] = [Vec3::X, Vec3::Z].map(|axis| axis * 1000.0);
+    assert_eq!(read(&text).unwrap().positions, [2.0 * x, 7.0 * x, x + 4.0 * z, 7.0 * (x + z)]);
+    for (from, to) in
+        [("\"joints\":[2,1]", "\"joints\":[2,9]"), ("\"joints\":[2,1]", "\"joints\":[2]"), (",\"WEIGHTS_0\":3", "")]
+    {
+        let error = read(&text.replace(from, to)).err().unwrap().to_string();
+        assert_eq!(error, "The glTF file is broken: skin 0 does not fit the scene or the mesh that it moves.");
+    }
+}
+
+#[test]
+fn a_mark_before_the_json_and_zeros_behind_it_are_passed_over() {
+    let json = square("{\"mesh\":0}", "");
+    for text in [format!("\u{feff}{json}"), format!("{json}\0\0\0"), format!("\u{feff}{json}  \0")] {
+        let length = (text.len() as u32).to_le_bytes();
+        let head = [&b"glTF\x02\0\0\0"[..], &(20 + text.len() as u32).to_le_bytes(), &length, b"JSON"].concat();
+        let glb = [&head, text.as_bytes()].concat();
+        let raw = at_once(read_binary(&glb, Unit::Metre, DVec3::ZERO, &Pace::never())).unwrap();
+        assert_eq!((read(&text).unwrap().positions.len(), raw.positions.len()), (4, 4));
     }
 }
 

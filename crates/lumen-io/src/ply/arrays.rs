@@ -20,6 +20,8 @@ const COLOURS: [&str; 4] = ["red", "green", "blue", "alpha"];
 pub(super) struct Extras {
     /// For each property its numbers, if they are kept.
     values: Vec<Option<Values>>,
+    /// Those that are not, because one of them is no number.
+    spoilt: Vec<usize>,
 }
 
 impl Extras {
@@ -51,7 +53,7 @@ impl Extras {
             bytes = more;
             Some(Values::new(property.kind))
         };
-        Self { values: properties.iter().map(&mut keep).collect() }
+        Self { values: properties.iter().map(&mut keep).collect(), spoilt: Vec::new() }
     }
 
     /// Where the numbers of a property go, if they are kept.
@@ -59,8 +61,15 @@ impl Extras {
         self.values.get_mut(place)?.as_mut()
     }
 
+    /// Gives the numbers of a property up: one of them is none.
+    pub(super) fn spoil(&mut self, place: usize) {
+        self.values[place] = None;
+        self.spoilt.push(place);
+    }
+
     /// Hands over the arrays.
     pub(super) fn add_to(mut self, columns: &mut Columns, on: Association, properties: &[Property]) {
+        self.spoilt.iter().for_each(|&place| columns.leave_out(&properties[place].name, ArrayProblem::NoNumber));
         let mut at = 0;
         while at < self.values.len() {
             let (name, width) = self.tuple(properties, at);

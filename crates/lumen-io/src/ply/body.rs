@@ -91,11 +91,12 @@ impl Body {
         let Self { row, positions, faces, .. } = self;
         let end = element.count.min(self.rows.saturating_add(BLOCK));
         for n in self.rows..end {
-            let wanted = match meaning {
-                Meaning::Faces(list) | Meaning::Strips(list) => Some(list),
-                Meaning::Vertices(_) | Meaning::Other => None,
+            let needed: &[usize] = match &meaning {
+                Meaning::Vertices(places) => places,
+                Meaning::Faces(list) | Meaning::Strips(list) => std::slice::from_ref(list),
+                Meaning::Other => &[],
             };
-            if row.read(&element.properties, wanted, numbers).is_none() {
+            if row.read(&element.properties, needed, numbers).is_none() {
                 let (format, what) = (encoding.label(), element.plural());
                 return Err(match (row.bad_length, numbers.fault()) {
                     (Some(length), _) => malformed(PlyProblem::ListLength { length }),
@@ -203,19 +204,27 @@ struct Row {
 }
 
 impl Row {
-    /// Reads a row; `None` where the file ends, or has a fault, before it is whole.
-    fn read(&mut self, properties: &[Property], wanted: Option<usize>, numbers: &mut impl Numbers) -> Option<()> {
+    /// Reads a row; `None` where the file ends, or a property that is needed has a fault, before it is whole.
+    fn read(&mut self, properties: &[Property], needed: &[usize], numbers: &mut impl Numbers) -> Option<()> {
         self.scalars.clear();
         self.list.clear();
         self.bad_length = None;
         for (place, property) in properties.iter().enumerate() {
             let Some(length) = property.length else {
                 if let Some(values) = self.extras.at(place) {
-                    values.push(numbers.number(property.kind)?);
+                    match numbers.number(property.kind) {
+                        Some(value) => values.push(value),
+                        None if numbers.pass_over() => self.extras.spoil(place),
+                        None => return None,
+                    }
                     self.scalars.push(0.0);
                     continue;
                 }
-                self.scalars.push(numbers.coordinate(property.kind, self.origins[place])?);
+                self.scalars.push(match numbers.coordinate(property.kind, self.origins[place]) {
+                    Some(value) => value,
+                    None if !needed.contains(&place) && numbers.pass_over() => 0.0,
+                    None => return None,
+                });
                 continue;
             };
             self.scalars.push(0.0);
@@ -224,14 +233,17 @@ impl Row {
                 self.bad_length = Some(length);
                 return None;
             }
+            let is_needed = needed.contains(&place);
             // A length that is a lie ends with the file.
-            if wanted == Some(place) {
+            if is_needed {
                 self.list.reserve(numbers.remaining().min(length as usize));
             }
             for _ in 0..length as u64 {
-                let value = numbers.number(property.kind)?;
-                if wanted == Some(place) {
-                    self.list.push(value);
+                match numbers.number(property.kind) {
+                    Some(value) if is_needed => self.list.push(value),
+                    Some(_) => {}
+                    None if !is_needed && numbers.pass_over() => {}
+                    None => return None,
                 }
             }
         }

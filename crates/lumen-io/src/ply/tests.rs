@@ -33,6 +33,26 @@ fn numbers_that_the_header_forgets_are_passed_over() {
 }
 
 #[test]
+fn words_that_are_no_numbers_stop_only_what_needs_them() {
+    let nan = ["-1.#IND", "1.#QNAN", "nan(ind)", "-nan(ind)", "1.#INF", "n/a"];
+    let header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        property float nx\nproperty float quality\nproperty list uchar float more\nproperty int id\n\
+        element face 1\nproperty list uchar int vertex_indices\nproperty float part\nend_header\n";
+    for word in nan {
+        let text = format!("{header}0 0 0 {word} 1 1 {word} 5\n1 0 0 1 {word} 0 6\n0 1 0 1 1 0 7\n3 0 1 2 {word}\n");
+        let raw = read(text.as_bytes()).unwrap();
+        let names: Vec<&str> = raw.arrays.iter().map(|array| &*array.name).collect();
+        assert_eq!((raw.triangles.len(), names), (1, vec!["id"]), "{word}");
+        let left_out = |name: &str| format!("The array \"{name}\" is left out: it holds what is no number.");
+        assert_eq!(crate::in_english(&raw.warnings), [left_out("quality"), left_out("part")]);
+        for needed in ["1 0 0 1", "3 0 1 2"] {
+            let broken = text.replace(needed, &needed.replacen('0', word, 1));
+            assert!(read(broken.as_bytes()).err().unwrap().to_string().contains("where a number should"));
+        }
+    }
+}
+
+#[test]
 fn strips_turn_every_second_triangle() {
     let text = "ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\n\
         element vertex 5\nproperty float x\nproperty float y\nproperty float z\nend_header\n8 0 1 2 3 -1 2 3 4\n\

@@ -2,7 +2,7 @@
 //!
 //! Both are described in "VTK File Formats" (Kitware). Polygons and triangle strips are the surface; vertices and lines are
 //! counted and left out. Of an unstructured grid (.vtu, or .vtk) the flat cells are read: triangles, strips, polygons,
-//! pixels and quadrilaterals. Everything else that VTK writes holds no surface and is refused by its name.
+//! pixels and quadrilaterals, and the corners of curved ones. Everything else that VTK writes holds no surface and is refused by its name.
 //!
 //! The crate `vtkio` is not used: it does not read appended raw data, which is what VTK writes unless told otherwise,
 //! takes memory as a header claims it, and brings C libraries along.

@@ -125,8 +125,10 @@ pub(super) struct Surface {
     notes_cells: bool,
     has_doubles: bool,
     skipped: Skipped,
-    /// Cells of a grid that are neither flat nor lines nor points.
+    /// Cells of a grid that are neither faces nor lines nor points.
     solids: u64,
+    /// Faces of a grid that are curved.
+    curved: usize,
 }
 
 impl Surface {
@@ -144,6 +146,7 @@ impl Surface {
             has_doubles: false,
             skipped: Skipped::default(),
             solids: 0,
+            curved: 0,
         }
     }
 
@@ -289,7 +292,7 @@ impl Surface {
             // An empty cell.
             0 => {}
             1 | 2 => self.skipped.points += 1,
-            3 | 4 => self.skipped.lines += 1,
+            3 | 4 | 21 | 35 | 68 | 75 => self.skipped.lines += 1,
             6 => self.add_face(Shape::Strips, cell),
             8 => {
                 // A pixel numbers its corners row by row.
@@ -299,8 +302,19 @@ impl Surface {
                 self.add_face(Shape::Polygons, cell);
             }
             5 | 7 | 9 => self.add_face(Shape::Polygons, cell),
+            // Quadratic and biquadratic, of Lagrange and of Bezier.
+            22 | 34 | 69 | 76 => self.add_curved(3, cell),
+            23 | 28 | 30 | 70 | 77 => self.add_curved(4, cell),
+            36 => self.add_curved(cell.len() / 2, cell),
             _ => self.solids += 1,
         }
+    }
+
+    /// Adds a curved face, whose corners stand before the points between them.
+    fn add_curved(&mut self, corners: usize, cell: &mut [u32]) {
+        self.curved += 1;
+        let corners = corners.min(cell.len());
+        self.add_face(Shape::Polygons, &mut cell[..corners]);
     }
 
     /// The vertex that a number stands for, among those of the last piece.
@@ -339,6 +353,9 @@ impl Surface {
         (raw.skipped.lines, raw.skipped.points) = (lines, points);
         if self.solids > 0 {
             raw.warnings.push(Warning::SolidCells { cells: self.solids });
+        }
+        if self.curved > 0 {
+            raw.warnings.push(Warning::CurvedCells { count: self.curved });
         }
         raw.carry(columns.finish(), self.room);
         Ok(raw)

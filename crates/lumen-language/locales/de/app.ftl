@@ -348,6 +348,7 @@ app-dialog-opened = Oberflächen, Scans, Protokolle und Einstellungen
 app-dialog-all = Alle Dateien
 app-no-file = Es wurde keine Datei gewählt.
 app-not-read = { $name } konnte nicht gelesen werden: { $error }.
+app-no-scans = Diese Fassung von Lumen wurde ohne Scans und Masken gebaut (Feature scans).
 app-folder-empty = Im Ordner sind keine Dateien.
 app-scan-not-found = { $name } ist nicht lesbar: { $error }.
 app-scan-file-gone = Eine Datei des Scans ist nicht mehr da.

@@ -62,7 +62,6 @@ errors-version = Version { $version }
 errors-compressor = das Kompressionsverfahren { $name }
 errors-lzma = LZMA mit einem Wörterbuch von { $bytes } Byte
 errors-gltf-whole-positions = Positionen aus ganzen 32-Bit-Zahlen
-errors-gltf-sparse = dünn besetzte Accessoren
 errors-extension = { $name }
 
 ## Was in einer Datei falsch ist: hinter einem Gedankenstrich, vor einem Punkt. Wörter der Datei stehen schon in Anführungszeichen.
@@ -103,6 +102,8 @@ errors-gltf-accessor-shape = Accessor { $accessor } hat nicht die Form, die sein
 errors-gltf-accessor-empty = Accessor { $accessor } hat keine Daten
 errors-gltf-accessor-beyond = Accessor { $accessor } liegt hinter dem Ende der Daten
 errors-gltf-accessor-overlap = Accessor { $accessor } hat Einträge, die sich überschneiden
+errors-gltf-packed = ihre gepackte Ansicht { $view } ist beschädigt oder von einer Art, die nicht gelesen wird
+errors-gltf-skin = Skin { $skin } passt nicht zur Szene oder zu dem Netz, das er bewegt
 errors-gltf-indices = die Nummern ihrer Eckpunkte sind keine ganzen Zahlen ohne Vorzeichen
 
 errors-vtk-xml = ihr XML ist dort falsch oder unvollständig
@@ -127,11 +128,16 @@ errors-vtk-field-type = ein Abschnitt „FIELD“ hat Werte eines unbekannten Ty
 ## Was zu einer geöffneten Datei gesagt wird. $number ist $count, ausgeschrieben.
 
 errors-stl-trailing = { $bytes } Byte nach dem letzten Dreieck weggelassen.
+errors-stl-count = Die Zahl der Dreiecke, die die Datei ankündigt ({ $announced }), passt nicht zu ihrer Länge: { $found } gelesen.
 errors-stl-open = Die Datei ist vielleicht abgeschnitten: Ihr letzter Körper hat kein Ende.
 errors-ply-trailing = { $bytes } Byte nach dem letzten Element weggelassen.
 errors-ply-unannounced = Zahlen, die der Kopf der Datei nicht ankündigt, wurden weggelassen.
 errors-ply-more-numbers = Zahlen nach dem letzten Element wurden weggelassen.
 errors-vtk-solids-left-out = { $cells } Volumen- oder gekrümmte Zellen weggelassen: Lumen zeigt Oberflächen.
+errors-vtk-curved = { $count ->
+    [one] { $count } gekrümmte Fläche als eben gelesen: Nur ihre Ecken werden behalten.
+   *[other] { $count } gekrümmte Flächen als eben gelesen: Nur ihre Ecken werden behalten.
+}
 errors-fanned = { $count ->
     [one] { $count } Vieleck konnte nicht ohne Falten in Dreiecke zerlegt werden, da es keine Fläche hat oder sich selbst schneidet.
    *[other] { $count } Vielecke konnten nicht ohne Falten in Dreiecke zerlegt werden, da sie keine Fläche haben oder sich selbst schneiden.

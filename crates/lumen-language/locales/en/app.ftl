@@ -371,6 +371,7 @@ app-dialog-opened = Surfaces, scans, logs and settings
 app-dialog-all = All files
 app-no-file = No file was chosen.
 app-not-read = { $name } could not be read: { $error }.
+app-no-scans = This build of Lumen was made without scans and masks (feature scans).
 app-folder-empty = There are no files in the folder.
 app-scan-not-found = cannot read { $name }: { $error }.
 app-scan-file-gone = A file of the scan is not there any more.

@@ -348,6 +348,7 @@ app-dialog-opened = Surfaces, scans, journaux et réglages
 app-dialog-all = Tous les fichiers
 app-no-file = Aucun fichier n'a été choisi.
 app-not-read = { $name } n'a pas pu être lu : { $error }.
+app-no-scans = Cette version de Lumen a été construite sans scans ni masques (feature scans).
 app-folder-empty = Il n'y a aucun fichier dans le dossier.
 app-scan-not-found = { $name } est illisible : { $error }.
 app-scan-file-gone = Un fichier du scan n'est plus là.

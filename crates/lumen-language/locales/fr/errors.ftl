@@ -62,7 +62,6 @@ errors-version = la version { $version }
 errors-compressor = la compression { $name }
 errors-lzma = LZMA avec un dictionnaire de { $bytes } octets
 errors-gltf-whole-positions = des positions en nombres entiers de 32 bits
-errors-gltf-sparse = des accesseurs clairsemés
 errors-extension = { $name }
 
 ## Ce qui est incorrect dans un fichier: derrière deux points, avant un point. Les mots du fichier sont déjà entre guillemets.
@@ -103,6 +102,8 @@ errors-gltf-accessor-shape = l'accesseur { $accessor } n'a pas la forme que son 
 errors-gltf-accessor-empty = l'accesseur { $accessor } n'a pas de données
 errors-gltf-accessor-beyond = l'accesseur { $accessor } se trouve au-delà de la fin des données
 errors-gltf-accessor-overlap = l'accesseur { $accessor } a des éléments qui se chevauchent
+errors-gltf-packed = sa vue compressée { $view } est endommagée, ou d'une sorte qui n'est pas lue
+errors-gltf-skin = le skin { $skin } ne va pas avec la scène ou avec le maillage qu'il déplace
 errors-gltf-indices = ses numéros de sommets ne sont pas des nombres entiers sans signe
 
 errors-vtk-xml = son XML y est incorrect ou incomplet
@@ -127,11 +128,16 @@ errors-vtk-field-type = un champ a des valeurs d'un type inconnu
 ## Ce qui est dit d'un fichier ouvert. $number est $count, écrit.
 
 errors-stl-trailing = { $bytes } octets après le dernier triangle omis.
+errors-stl-count = Le nombre de triangles que le fichier annonce ({ $announced }) ne va pas avec sa longueur : { $found } lus.
 errors-stl-open = Le fichier est peut-être tronqué : son dernier solide n'a pas de fin.
 errors-ply-trailing = { $bytes } octets après le dernier élément omis.
 errors-ply-unannounced = Des nombres que l'en-tête du fichier n'annonce pas ont été omis.
 errors-ply-more-numbers = Des nombres après le dernier élément ont été omis.
 errors-vtk-solids-left-out = { $cells } cellules volumiques ou courbes omises : Lumen montre des surfaces.
+errors-vtk-curved = { $count ->
+    [one] { $count } face courbe prise comme plane : seuls ses coins sont gardés.
+   *[other] { $count } faces courbes prises comme planes : seuls leurs coins sont gardés.
+}
 errors-fanned = { $count ->
     [one] { $count } polygone n'a pas pu être découpé en triangles sans repli : il n'a pas d'aire ou se croise lui-même.
    *[other] { $count } polygones n'ont pas pu être découpés en triangles sans repli : ils n'ont pas d'aire ou se croisent eux-mêmes.

@@ -1,0 +1,51 @@
+//! What of a scan or a mask is the vessel, as the command line asks for it.
+
+use anyhow::Result;
+use clap::Args;
+
+use super::misuse::misuse;
+use crate::volume::Region;
+
+/// What of a scan or a mask is the vessel.
+#[derive(Clone, Debug, Default, Args)]
+pub(super) struct ScanOptions {
+    /// Of a scan: make the surface where values reach this, in its own unit (Hounsfield units for CT)
+    #[arg(long, value_name = "HU", allow_negative_numbers = true, conflicts_with = "label")]
+    pub(super) threshold: Option<f64>,
+    /// Of a mask: make the surface of this label; without it, of all that is not 0
+    #[arg(long, value_name = "N")]
+    pub(super) label: Option<i64>,
+    /// Look only at these voxels: first and last column, row and slice, from 0
+    #[arg(long = "box", value_name = "I0,I1,J0,J1,K0,K1", value_parser = region)]
+    pub(super) region: Option<Region>,
+}
+
+fn region(text: &str) -> Result<Region, String> {
+    let ends: Result<Vec<usize>, _> = text.split(',').map(|end| end.trim().parse::<usize>()).collect();
+    match ends.as_deref() {
+        Ok(&[i0, i1, j0, j1, k0, k1]) if i0 < i1 && j0 < j1 && k0 < k1 => {
+            Ok(Region { first: [i0, j0, k0], last: [i1, j1, k1] })
+        }
+        _ => Err(format!("{text} is not six voxel numbers, the first of each axis below the last")),
+    }
+}
+
+impl ScanOptions {
+    /// Whether anything is asked for that only a volume has.
+    pub(super) fn is_any(&self) -> bool {
+        self.threshold.is_some() || self.label.is_some() || self.region.is_some()
+    }
+
+    /// Whether they say what the surface is of.
+    pub(super) fn is_chosen(&self) -> bool {
+        self.threshold.is_some() || self.label.is_some()
+    }
+
+    /// Refuses where these options are given for what is no volume.
+    pub(super) fn refuse(&self, name: &str) -> Result<()> {
+        if self.is_any() {
+            return Err(misuse(format!("{name} is a surface: --threshold, --label and --box are for scans and masks")));
+        }
+        Ok(())
+    }
+}
