@@ -18,6 +18,11 @@ impl ScanOptions {
         false
     }
 
+    /// No part is asked for.
+    pub(super) fn has_box(&self) -> bool {
+        false
+    }
+
     /// Nothing is.
     pub(super) fn is_chosen(&self) -> bool {
         false
@@ -33,7 +38,7 @@ impl ScanOptions {
 pub(super) enum Opened {}
 
 /// No file is a volume.
-pub(super) fn open(_: &[String]) -> Result<Option<Opened>> {
+pub(super) fn open(_: &[String], _: &ScanOptions) -> Result<Option<Opened>> {
     Ok(None)
 }
 

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::misuse::misuse;
 use super::rows::row;
-use crate::io::volume::{self, Part};
+use crate::io::volume::{self, Offer, Part};
 use crate::io::{Axes, Imported, Warning, import_mesh, in_english};
 use crate::volume::{Grid, Label, PRESETS, Region, Selection, Survey, surface, survey};
 
@@ -25,6 +25,9 @@ pub(super) struct ScanOptions {
     /// Of a mask: make the surface of this label; without it, of all that is not 0
     #[arg(long, value_name = "N")]
     label: Option<i64>,
+    /// Of files that hold several volumes: this one, from 1; without it, the one of most slices
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    volume: Option<u32>,
     /// Look only at these voxels: first and last column, row and slice, from 0
     #[arg(long = "box", value_name = "I0,I1,J0,J1,K0,K1", value_parser = region)]
     region: Option<Region>,
@@ -43,7 +46,12 @@ fn region(text: &str) -> Result<Region, String> {
 impl ScanOptions {
     /// Whether anything is asked for that only a volume has.
     pub(super) fn is_any(&self) -> bool {
-        self.threshold.is_some() || self.label.is_some() || self.region.is_some()
+        self.threshold.is_some() || self.label.is_some() || self.region.is_some() || self.volume.is_some()
+    }
+
+    /// Whether a part of the volume is asked for.
+    pub(super) fn has_box(&self) -> bool {
+        self.region.is_some()
     }
 
     /// Whether they say what the surface is of.
@@ -54,7 +62,7 @@ impl ScanOptions {
     /// Refuses where these options are given for what is no volume.
     pub(super) fn refuse(&self, name: &str) -> Result<()> {
         if self.is_any() {
-            return Err(misuse(format!("{name} is a surface: --threshold, --label and --box are for scans and masks")));
+            return Err(misuse(format!("{name} is a surface: --threshold, --label, --volume and --box are for scans and masks")));
         }
         Ok(())
     }
@@ -68,6 +76,9 @@ pub(super) struct Opened {
     axes: Axes,
     is_ct: bool,
     warnings: Vec<Warning>,
+    offers: Vec<Offer>,
+    taken: usize,
+    names: Vec<(i64, String)>,
 }
 
 /// What is in a volume. The field names are the keys of the JSON that `lumen inspect` prints.
@@ -87,24 +98,37 @@ struct Report<'a> {
     range: [f64; 2],
     is_ct: bool,
     /// Of a mask, the labels but 0.
-    labels: &'a [Label],
+    labels: Vec<NamedLabel<'a>>,
+    /// All volumes of the files where they may hold several, and which of them this is, from 1.
+    #[serde(skip_serializing_if = "<[Offer]>::is_empty")]
+    volumes: &'a [Offer],
+    volume: usize,
     warnings: Vec<String>,
 }
 
+/// A label with its name, if the file has one.
+#[derive(Serialize)]
+struct NamedLabel<'a> {
+    #[serde(flatten)]
+    label: Label,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<&'a str>,
+}
+
 /// Opens the volume in the files or the folder of those names; `None` where the only one is a file that is none.
-pub(super) fn open(names: &[String]) -> Result<Option<Opened>> {
+pub(super) fn open(names: &[String], options: &ScanOptions) -> Result<Option<Opened>> {
     let paths: Vec<PathBuf> = names.iter().map(PathBuf::from).collect();
     let Some(files) = volume::gather(&paths)? else { return Ok(None) };
     if files.is_empty() {
         bail!("{} holds no files", names.join(", "));
     }
     let parts: Vec<Part> = files.iter().map(|(name, bytes)| Part { name, bytes }).collect();
-    let scan = volume::read(&parts).with_context(|| names[0].clone())?;
+    let scan = volume::read_volume(&parts, options.volume.map(|number| number as usize - 1)).with_context(|| names[0].clone())?;
     drop(files);
-    let volume::Scan { grid, format, axes, is_ct, warnings } = scan;
+    let volume::Scan { grid, format, axes, is_ct, warnings, offers, taken, names } = scan;
     let grid = Arc::new(grid);
     let survey = survey(&grid);
-    Ok(Some(Opened { grid, survey, format, axes, is_ct, warnings }))
+    Ok(Some(Opened { grid, survey, format, axes, is_ct, warnings, offers, taken, names }))
 }
 
 impl Opened {
@@ -123,6 +147,13 @@ impl Opened {
         &self.warnings
     }
 
+    fn labels(&self) -> impl Iterator<Item = NamedLabel<'_>> {
+        self.survey.labels.iter().map(|&label| {
+            let named = self.names.iter().find(|(value, name)| *value == label.value && !name.is_empty());
+            NamedLabel { label, name: named.map(|(_, name)| name.as_str()) }
+        })
+    }
+
     /// What is in it, as JSON.
     pub(super) fn json(&self) -> Result<String> {
         let geometry = self.grid.geometry();
@@ -136,7 +167,9 @@ impl Opened {
             sample_type: self.grid.samples().sample_type().name(),
             range: self.survey.range,
             is_ct: self.is_ct,
-            labels: &self.survey.labels,
+            labels: self.labels().collect(),
+            volumes: &self.offers,
+            volume: self.taken + 1,
             warnings: in_english(&self.warnings),
         })?)
     }
@@ -146,6 +179,11 @@ impl Opened {
         let geometry = self.grid.geometry();
         let list = |values: [f64; 3]| values.map(|value| format!("{value:.4}")).join(", ");
         let [i, j, k] = geometry.size;
+        for (at, Offer { slices, by, value, series }) in self.offers.iter().enumerate().filter(|_| self.offers.len() > 1) {
+            let what = by.map_or_else(|| format!("series {}", series + 1), |by| format!("{by} {value}"));
+            let taken = if at == self.taken { ", opened" } else { "" };
+            row(&format!("volume {}", at + 1), format!("{slices} slices, {what}{taken}"));
+        }
         row("format", self.format);
         row("dimensions", format!("{i} x {j} x {k} voxels"));
         row("spacing", format!("{} mm", geometry.spacing.to_array().map(|mm| format!("{mm:.4}")).join(" x ")));
@@ -159,7 +197,10 @@ impl Opened {
         row("type", self.grid.samples().sample_type().name());
         row("range", format!("{low} to {high}{}", if self.is_ct { " HU" } else { "" }));
         if self.survey.is_mask() {
-            let labels = self.survey.labels.iter().map(|label| format!("{} ({} voxels)", label.value, label.points));
+            let labels = self.labels().map(|NamedLabel { label: Label { value, points }, name }| match name {
+                Some(name) => format!("{value} {name} ({points} voxels)"),
+                None => format!("{value} ({points} voxels)"),
+            });
             row("labels", labels.collect::<Vec<_>>().join(", "));
         } else if self.is_ct || self.survey.has_air() {
             for preset in PRESETS {

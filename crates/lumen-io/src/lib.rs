@@ -45,7 +45,7 @@ pub use reading::{read, read_in_slices};
 pub use report::{ImportReport, Imported, Skipped};
 pub use size::{InUnits, Length, UnusualSize};
 pub use unit::{Unit, UnknownUnit};
-pub use warnings::{ArrayProblem, ScanWarning, Warning, in_english};
+pub use warnings::{ArrayProblem, ScanWarning, VolumeField, Warning, in_english};
 
 use serde::{Deserialize, Serialize};
 
@@ -68,6 +68,7 @@ pub const MESSAGES: &[&[lumen_message::Signature]] = &[
     UnknownUnit::MESSAGES,
     Unnamed::MESSAGES,
     UnusualSize::MESSAGES,
+    VolumeField::MESSAGES,
     WriteError::MESSAGES,
     problem::DicomProblem::MESSAGES,
     problem::GltfProblem::MESSAGES,

@@ -89,6 +89,11 @@ messages! {
         "scan-dicom-no-spacing" NoSpacing => "it does not say how far apart its pixels are",
         "scan-dicom-no-places" NoPlaces => "it does not say where its slices are",
         "scan-dicom-no-slice" NoSlice => "none of its files holds a slice in shades of grey",
+        "scan-dicom-mixed" Mixed { places: usize } => (
+            places,
+            "at one place it has several slices, and nothing in them says which volume each is of",
+            "at {places} places it has several slices each, and nothing in them says which volume each is of"
+        ),
         "scan-dicom-single" SingleSlice => "it holds a single slice, and a surface takes two or more",
     }
 }

@@ -128,8 +128,8 @@ messages! {
         "scan-dicom-same-place" SamePlace { count: usize } =>
             {
                 match count {
-                    1 => "1 slice lies at the place of another: of each place the first is taken.".to_owned(),
-                    _ => format!("{} slices lie at the place of another: of each place the first is taken.", grouped(*count)),
+                    1 => "1 slice is there twice: the same place and the same pixels; one is taken.".to_owned(),
+                    _ => format!("{} slices are there twice: the same place and the same pixels; one of each is taken.", grouped(*count)),
                 }
             },
         "scan-dicom-series" Series { count: usize, taken: usize, slices: usize, others: usize } => {
@@ -140,6 +140,8 @@ messages! {
             let count = grouped(*count);
             format!("The files hold {count} series: the one with most slices, {taken}, is taken, and {slices} of {of} are left out.")
         },
+        "scan-volumes" Volumes { count: usize, by: VolumeField, list: String, taken: String } =>
+            "The files hold {count} volumes of one series, told apart by {by}; each with its number of slices: {list}. Opened is {taken}.",
         "scan-dicom-no-slices" NoSlices { count: usize } =>
             {
                 match count {
@@ -151,6 +153,32 @@ messages! {
             "The slices are not evenly apart: mostly {usual:.3} mm, but {there:.3} mm between slices {below} and {above}; some may be missing, and the surface is stretched there.",
         "scan-dicom-squeeze" Squeeze { usual: f64 [3], there: f64 [3], below: usize, above: usize } =>
             "The slices are not evenly apart: mostly {usual:.3} mm, but {there:.3} mm between slices {below} and {above}; the surface is pressed together there.",
+    }
+}
+
+messages! {
+    /// What tells the volumes of a series, or of a file, apart.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[allow(missing_docs, reason = "its words say what each is")]
+    pub enum VolumeField {
+        "scan-by-time" Time => "temporal position",
+        "scan-by-heart-phase" HeartPhase => "heart phase",
+        "scan-by-trigger" Trigger => "trigger time",
+        "scan-by-echo" Echo => "echo",
+        "scan-by-b-value" BValue => "b-value",
+        "scan-by-image-type" ImageType => "image type",
+        "scan-by-stack" Stack => "stack",
+        "scan-by-acquisition" Acquisition => "acquisition number",
+        "scan-by-thickness" Thickness => "slice thickness",
+        "scan-by-kernel" Kernel => "kernel",
+        "scan-by-voltage" Voltage => "tube voltage",
+        "scan-by-reference-frame" ReferenceFrame => "frame of reference",
+        "scan-by-moment" Moment => "the time they were made",
+        "scan-by-order" Order => "the numbers of their slices",
+        "scan-by-place" Place => "the places of their slices",
+        "scan-by-several" Several => "several fields",
+        "scan-by-segment" Segment => "segment",
+        "scan-by-layer" Layer => "layer",
     }
 }
 

@@ -34,6 +34,17 @@ messages! {
             /// Bytes of its numbers.
             bytes: u64,
         } => "There is not enough memory for the {bytes} bytes of the volume.",
+        /// Fewer volumes than that.
+        "scan-no-such-volume" NoSuchVolume {
+            /// The one asked for, from 1.
+            number: usize,
+            /// How many there are.
+            count: usize,
+        } => (
+            count,
+            "There is no volume {number}: the files hold one.",
+            "There is no volume {number}: the files hold {count}."
+        ),
     } or {
         /// The file is broken, cut short, or uses what Lumen does not read.
         File(ReadError),

@@ -31,7 +31,7 @@ pub use error::ScanError;
 #[cfg(not(target_arch = "wasm32"))]
 pub use files::{Files, Unreadable, find, gather};
 pub use headers::{data_name, is_volume};
-pub use outline::Scan;
+pub use outline::{Offer, Scan};
 pub use parts::{HEAD, Head, Part};
 pub use stream::{Stream, begin};
 
@@ -45,6 +45,15 @@ use parts::base_name;
 /// [`ScanError`], each in one plain sentence: no file is a volume, one is broken or cut short, the numbers are missing, do not
 /// fit into memory or have no place in a patient.
 pub fn read(parts: &[Part]) -> Result<Scan, ScanError> {
+    read_volume(parts, None)
+}
+
+/// As [`read`]; of files that hold several volumes that of number `choice` in [`Scan::offers`], or where there is none the one of
+/// most slices.
+///
+/// # Errors
+/// As [`read`], and [`ScanError::NoSuchVolume`].
+pub fn read_volume(parts: &[Part], choice: Option<usize>) -> Result<Scan, ScanError> {
     let found =
         parts.iter().enumerate().find_map(|(at, part)| headers::content(part.bytes).map(|content| (at, content)));
     let Some((at, content)) = found else {
@@ -57,12 +66,16 @@ pub fn read(parts: &[Part]) -> Result<Scan, ScanError> {
     let whole = |part: &Part<'_>| part.bytes.len() as u64;
     let heads: Vec<Head> =
         parts.iter().map(|part| Head { name: part.name, bytes: part.bytes, length: whole(part) }).collect();
-    match Way::of(content, at, &heads)? {
+    let way = Way::of(content, at, &heads)?;
+    if let (Way::Pieces(_) | Way::Vti, Some(number @ 1..)) = (&way, choice) {
+        return Err(ScanError::NoSuchVolume { number: number + 1, count: 1 });
+    }
+    match way {
         Way::Pieces(outline) => stream::read_whole(*outline, parts),
         Way::Vti => vti::read(parts[at].bytes),
         Way::Dicom => {
             let is_slice = |part: &&Part| headers::content(part.bytes) == Some(content);
-            dicom::read(&parts.iter().filter(is_slice).collect::<Vec<_>>())
+            dicom::read(&parts.iter().filter(is_slice).collect::<Vec<_>>(), choice)
         }
     }
 }

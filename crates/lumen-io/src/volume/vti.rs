@@ -36,6 +36,7 @@ fn scan(image: &Image) -> Result<Scan, ScanError> {
         Values::Big(bytes) => layout(true)?.take(bytes)?,
     };
     let grid = Grid::new(geometry, samples, 1.0, 0.0)?;
-    let warnings = vec![ScanWarning::SilentFormat { format: FORMAT.to_owned() }.into()];
-    Ok(Scan { grid, format: FORMAT, axes: Axes::Unknown, is_ct: false, warnings })
+    let mut scan = Scan::new(grid, FORMAT, Axes::Unknown);
+    scan.warnings.push(ScanWarning::SilentFormat { format: FORMAT.to_owned() }.into());
+    Ok(scan)
 }

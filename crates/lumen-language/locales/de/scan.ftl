@@ -133,6 +133,10 @@ scan-points = Das Volumen hat { $points } Punkte und dafür { $samples } Zahlen.
 
 scan-no-volume = „{ $name }“ ist kein Volumen, das Lumen kennt: Es öffnet Dateien in NIfTI, NRRD, MetaImage und VTI und Serien in DICOM.
 scan-data-elsewhere = Der Kopf in { $format } hat seine Zahlen in der Datei „{ $name }“: beide zusammen öffnen.
+scan-no-such-volume = { $count ->
+    [one] Es gibt kein Volumen { $number }: Die Dateien enthalten eines.
+   *[other] Es gibt kein Volumen { $number }: Die Dateien enthalten { $count }.
+}
 scan-too-large = Das Volumen ist zu groß: Seine Zahlen brauchen { $bytes } Byte, und Lumen kann { $limit } aufnehmen.
 scan-volume-memory = Für die { $bytes } Byte des Volumens reicht der Speicher nicht.
 scan-no-memory = Der Speicher reicht hier nicht, um { $mb } MB zu lesen.
@@ -165,6 +169,10 @@ scan-dicom-no-directions = sie sagt nicht, wie ihre Schichten liegen
 scan-dicom-no-spacing = sie sagt nicht, wie weit ihre Pixel auseinanderliegen
 scan-dicom-no-places = sie sagt nicht, wo ihre Schichten liegen
 scan-dicom-no-slice = keine ihrer Dateien enthält eine Schicht in Graustufen
+scan-dicom-mixed = { $places ->
+    [one] an einem Ort hat sie mehrere Schichten, und nichts darin sagt, zu welchem Volumen jede gehört
+   *[other] an { $places } Orten hat sie je mehrere Schichten, und nichts darin sagt, zu welchem Volumen jede gehört
+}
 scan-dicom-single = sie enthält eine einzige Schicht, und eine Oberfläche braucht zwei oder mehr
 scan-vti-wrong = „{ $name }“ ist falsch
 scan-vti-no-element = das Element „{ $name }“ fehlt
@@ -193,9 +201,10 @@ scan-dicom-unreadable = { $count ->
    *[other] { $count } Schichten können nicht gelesen werden und werden weggelassen. { $why }
 }
 scan-dicom-same-place = { $count ->
-    [one] Eine Schicht liegt am Ort einer anderen: Von jedem Ort wird die erste genommen.
-   *[other] { $count } Schichten liegen am Ort einer anderen: Von jedem Ort wird die erste genommen.
+    [one] Eine Schicht ist zweimal da, am selben Ort und mit denselben Pixeln: Eine davon wird genommen.
+   *[other] { $count } Schichten sind zweimal da, am selben Ort und mit denselben Pixeln: Je eine davon wird genommen.
 }
+scan-volumes = Die Dateien enthalten { $count } Volumen einer Serie, unterschieden durch { $by }; jedes mit seiner Zahl von Schichten: { $list }. Geöffnet ist { $taken }.
 scan-dicom-series = { $others ->
     [one] Die Dateien enthalten { $count } Serien: Die mit den meisten Schichten, { $taken }, wird genommen, und { $slices } der anderen werden weggelassen.
    *[other] Die Dateien enthalten { $count } Serien: Die mit den meisten Schichten, { $taken }, wird genommen, und { $slices } von { $others } anderen werden weggelassen.
@@ -206,6 +215,27 @@ scan-dicom-no-slices = { $count ->
 }
 scan-dicom-gap = Die Schichten haben keinen gleichmäßigen Abstand: meist { $usual } mm, aber { $there } mm zwischen den Schichten { $below } und { $above }; einige fehlen vielleicht, und die Oberfläche ist dort gestreckt.
 scan-dicom-squeeze = Die Schichten haben keinen gleichmäßigen Abstand: meist { $usual } mm, aber { $there } mm zwischen den Schichten { $below } und { $above }; die Oberfläche ist dort gestaucht.
+
+## Was die Volumen einer Serie unterscheidet: im Akkusativ, hinter „durch“
+
+scan-by-time = die zeitliche Position
+scan-by-heart-phase = die Herzphase
+scan-by-trigger = die Triggerzeit
+scan-by-echo = das Echo
+scan-by-b-value = den b-Wert
+scan-by-image-type = die Bildart
+scan-by-stack = den Stapel
+scan-by-acquisition = die Nummer der Aufnahme
+scan-by-thickness = die Schichtdicke
+scan-by-kernel = den Faltungskern
+scan-by-voltage = die Röhrenspannung
+scan-by-reference-frame = das Bezugssystem
+scan-by-moment = die Zeit ihrer Entstehung
+scan-by-order = die Nummern ihrer Schichten
+scan-by-place = die Orte ihrer Schichten
+scan-by-several = mehrere Felder
+scan-by-segment = das Segment
+scan-by-layer = die Ebene
 
 ## Der Browser
 

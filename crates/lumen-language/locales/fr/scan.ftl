@@ -133,6 +133,10 @@ scan-points = Le volume a { $points } points et { $samples } nombres pour ceux-c
 
 scan-no-volume = « { $name } » n'est pas un volume que Lumen connaît : il ouvre les fichiers NIfTI, NRRD, MetaImage et VTI et les séries DICOM.
 scan-data-elsewhere = L'en-tête { $format } garde ses nombres dans le fichier « { $name } » : ouvrir les deux ensemble.
+scan-no-such-volume = { $count ->
+    [one] Il n'y a pas de volume { $number } : les fichiers n'en contiennent qu'un.
+   *[other] Il n'y a pas de volume { $number } : les fichiers en contiennent { $count }.
+}
 scan-too-large = Le volume est trop grand : ses nombres prennent { $bytes } octets, et Lumen peut en prendre { $limit }.
 scan-volume-memory = Il n'y a pas assez de mémoire pour les { $bytes } octets du volume.
 scan-no-memory = Il n'y a pas assez de mémoire ici pour lire { $mb } Mo.
@@ -165,6 +169,10 @@ scan-dicom-no-directions = il ne dit pas comment ses coupes sont orientées
 scan-dicom-no-spacing = il ne dit pas à quelle distance sont ses pixels
 scan-dicom-no-places = il ne dit pas où sont ses coupes
 scan-dicom-no-slice = aucun de ses fichiers ne contient une coupe en niveaux de gris
+scan-dicom-mixed = { $places ->
+    [one] à une place elle a plusieurs coupes, et rien n'y dit à quel volume chacune appartient
+   *[other] à { $places } places elle a plusieurs coupes chacune, et rien n'y dit à quel volume chacune appartient
+}
 scan-dicom-single = il ne contient qu'une coupe, et une surface en demande deux ou plus
 scan-vti-wrong = « { $name } » est faux
 scan-vti-no-element = il n'a pas d'élément « { $name } »
@@ -193,9 +201,10 @@ scan-dicom-unreadable = { $count ->
    *[other] { $count } coupes ne peuvent pas être lues et sont omises. { $why }
 }
 scan-dicom-same-place = { $count ->
-    [one] { $count } coupe se trouve à la place d'une autre : de chaque place, la première est prise.
-   *[other] { $count } coupes se trouvent à la place d'une autre : de chaque place, la première est prise.
+    [one] Une coupe est présente deux fois, à la même place et avec les mêmes pixels : une seule est prise.
+   *[other] { $count } coupes sont présentes deux fois, à la même place et avec les mêmes pixels : une seule de chaque est prise.
 }
+scan-volumes = Les fichiers contiennent { $count } volumes d'une même série, distingués par { $by } ; chacun avec son nombre de coupes : { $list }. Le volume ouvert est { $taken }.
 scan-dicom-series = { $others ->
     [one] Les fichiers contiennent { $count } séries : celle qui a le plus de coupes, { $taken }, est prise, et { $slices } de l'autre sont omises.
    *[other] Les fichiers contiennent { $count } séries : celle qui a le plus de coupes, { $taken }, est prise, et { $slices } de { $others } autres sont omises.
@@ -206,6 +215,27 @@ scan-dicom-no-slices = { $count ->
 }
 scan-dicom-gap = Les coupes ne sont pas régulièrement espacées : le plus souvent { $usual } mm, mais { $there } mm entre les coupes { $below } et { $above } ; il en manque peut-être, et la surface y est étirée.
 scan-dicom-squeeze = Les coupes ne sont pas régulièrement espacées : le plus souvent { $usual } mm, mais { $there } mm entre les coupes { $below } et { $above } ; la surface y est comprimée.
+
+## Ce qui distingue les volumes d'une série : derrière « par »
+
+scan-by-time = la position temporelle
+scan-by-heart-phase = la phase cardiaque
+scan-by-trigger = le temps de déclenchement
+scan-by-echo = l'écho
+scan-by-b-value = la valeur b
+scan-by-image-type = le type d'image
+scan-by-stack = la pile
+scan-by-acquisition = le numéro d'acquisition
+scan-by-thickness = l'épaisseur de coupe
+scan-by-kernel = le noyau de convolution
+scan-by-voltage = la tension du tube
+scan-by-reference-frame = le repère
+scan-by-moment = le moment de leur création
+scan-by-order = les numéros de leurs coupes
+scan-by-place = les positions de leurs coupes
+scan-by-several = plusieurs champs
+scan-by-segment = le segment
+scan-by-layer = la couche
 
 ## Le navigateur
 

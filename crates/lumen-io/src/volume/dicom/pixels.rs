@@ -12,9 +12,12 @@ use super::file::{FORMAT, File, Packing};
 
 /// The pixels of frame `frame` of a file, in little-endian order.
 pub(super) fn frame(file: &File, frame: usize) -> Result<Vec<u8>, ScanError> {
-    let size = file.bits_allocated as usize / 8;
+    let size = (file.bits_allocated as usize / 8).max(1);
     let bytes = file.rows * file.columns * size;
     let short = || ScanError::malformed(FORMAT, DicomProblem::Pixels);
+    if file.bits_allocated == 1 && matches!(file.packing, Some(Packing::Little | Packing::Big)) {
+        return bits(file, frame, bytes).ok_or_else(short);
+    }
     match file.packing {
         Some(Packing::Rle | Packing::Jpeg) => {
             let packed = packed(file, frame).ok_or_else(short)?;
@@ -37,6 +40,15 @@ pub(super) fn frame(file: &File, frame: usize) -> Result<Vec<u8>, ScanError> {
             Ok(pixels)
         }
     }
+}
+
+/// Pixels of one bit, the lowest of a byte first; a frame begins where the one before ends, within a byte too.
+fn bits(file: &File, frame: usize, pixels: usize) -> Option<Vec<u8>> {
+    let all = file.pixels.first()?;
+    let start = frame.checked_mul(pixels)?;
+    let end = start.checked_add(pixels)?;
+    let bit = |at: usize| all[at / 8] >> (at % 8) & 1;
+    (end <= all.len().saturating_mul(8)).then(|| (start..end).map(bit).collect())
 }
 
 /// The fragments of a frame, one after another: a fragment for each frame, or all of them for a file's only one.
