@@ -280,7 +280,7 @@ fn the_series_of_most_slices_is_taken_and_the_rest_told_by_number() {
         [
             "The files hold 3 series: the one with most slices, 5, is taken, and 2 of 2 others are left out.",
             "1 file holds no slice in shades of grey and is left out.",
-            "1 slice lies at the place of another: of each place the first is taken.",
+            "1 slice is there twice: the same place and the same pixels; one is taken.",
         ]
     );
 }
@@ -343,8 +343,8 @@ fn what_no_volume_can_be_made_of_is_refused() {
         "The DICOM file is broken: a slice has fewer pixels than rows times columns."
     );
     assert_eq!(
-        refused(|file| file.with(0x0028, 0x0100, short(32))),
-        "The DICOM file uses 32 bits a pixel, which Lumen does not read."
+        refused(|file| file.with(0x0028, 0x0100, short(12))),
+        "The DICOM file uses 12 bits a pixel, which Lumen does not read."
     );
     assert_eq!(
         refused(|file| File { syntax: "1.2.840.10008.1.2.4.90", ..file }),

@@ -70,7 +70,7 @@ messages! {
         "scan-vti-wrong" Wrong { name: &'static str } => "\"{name}\" is wrong",
         "scan-vti-no-element" NoElement { name: &'static str } => "it has no element \"{name}\"",
         "scan-vti-no-points" NoPoints => "it does not say how many points there are",
-        "scan-vti-no-array" NoArray => "it has no array of one number a point",
+        "scan-vti-no-array" NoArray => "it has no array of one number for each point or cell",
     }
 }
 
@@ -89,11 +89,6 @@ messages! {
         "scan-dicom-no-spacing" NoSpacing => "it does not say how far apart its pixels are",
         "scan-dicom-no-places" NoPlaces => "it does not say where its slices are",
         "scan-dicom-no-slice" NoSlice => "none of its files holds a slice in shades of grey",
-        "scan-dicom-mixed" Mixed { places: usize } => (
-            places,
-            "at one place it has several slices, and nothing in them says which volume each is of",
-            "at {places} places it has several slices each, and nothing in them says which volume each is of"
-        ),
         "scan-dicom-single" SingleSlice => "it holds a single slice, and a surface takes two or more",
     }
 }

@@ -119,6 +119,12 @@ messages! {
             "{format} does not say which way the patient lies: the axes are unknown.",
         "scan-unknown-unit" UnknownUnit { format: String, unit: String } =>
             "The unit of length of the {format} file, {unit}, is not known: it is taken as mm.",
+        "scan-nifti-no-matrix" NoMatrix =>
+            "The matrix (sform) of the NIfTI file is none, though it should be the one to use: its quaternion (qform) is taken.",
+        "scan-nifti-no-place" NoPlace =>
+            "The matrix (sform) of the NIfTI file is none, and it has no quaternion (qform): its spacings are taken.",
+        "scan-nifti-spacings" Spacings { matrix: f64 [3], stated: f64 [3] } =>
+            "The NIfTI file contradicts itself: by its matrix (sform) voxels are {matrix:.3} mm apart, by its spacings {stated:.3} mm. The matrix is taken.",
         "scan-dicom-unreadable" Unreadable { count: usize, why: Told } => {
             match *count {
                 1 => format!("One slice cannot be read and is left out. {why}"),

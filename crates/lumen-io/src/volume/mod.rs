@@ -17,6 +17,7 @@ mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod files;
 mod headers;
+mod layers;
 mod lines;
 mod metaimage;
 mod nifti;
@@ -66,12 +67,14 @@ pub fn read_volume(parts: &[Part], choice: Option<usize>) -> Result<Scan, ScanEr
     let whole = |part: &Part<'_>| part.bytes.len() as u64;
     let heads: Vec<Head> =
         parts.iter().map(|part| Head { name: part.name, bytes: part.bytes, length: whole(part) }).collect();
-    let way = Way::of(content, at, &heads)?;
-    if let (Way::Pieces(_) | Way::Vti, Some(number @ 1..)) = (&way, choice) {
-        return Err(ScanError::NoSuchVolume { number: number + 1, count: 1 });
-    }
-    match way {
-        Way::Pieces(outline) => stream::read_whole(*outline, parts),
+    match Way::of(content, at, &heads)? {
+        Way::Pieces(mut outline) => {
+            outline.layers.choice = choice;
+            stream::read_whole(*outline, parts)
+        }
+        Way::Vti if choice.is_some_and(|number| number > 0) => {
+            Err(ScanError::NoSuchVolume { number: choice.unwrap_or(0) + 1, count: 1 })
+        }
         Way::Vti => vti::read(parts[at].bytes),
         Way::Dicom => {
             let is_slice = |part: &&Part| headers::content(part.bytes) == Some(content);

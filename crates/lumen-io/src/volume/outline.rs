@@ -3,6 +3,7 @@
 use super::super::axes::Axes;
 use super::super::warnings::{ScanWarning, VolumeField, Warning};
 use super::error::ScanError;
+pub(super) use super::layers::{Layers, Segment};
 use super::numbers::{Layout, Packing};
 use lumen_volume::{Geometry, Grid, Samples};
 use serde::{Deserialize, Serialize};
@@ -50,6 +51,7 @@ pub struct Offer {
 }
 
 /// All of them.
+#[derive(Default)]
 pub(super) struct Offers {
     pub(super) list: Vec<Offer>,
 }
@@ -94,13 +96,18 @@ pub(super) struct Outline {
     pub(super) axes: Axes,
     pub(super) is_ct: bool,
     pub(super) warnings: Vec<Warning>,
+    pub(super) layers: Layers,
 }
 
 impl Outline {
     pub(super) fn finish(self, samples: Samples) -> Result<Scan, ScanError> {
         let [slope, intercept] = self.scaling;
-        let grid = Grid::new(self.geometry, samples, slope, intercept)?;
-        let scan = Scan::new(grid, self.format, self.axes);
-        Ok(Scan { is_ct: self.is_ct, warnings: self.warnings, ..scan })
+        let unfolded = self.layers.unfold(samples, self.geometry.size[2])?;
+        let grid = Grid::new(self.geometry, unfolded.samples, slope, intercept)?;
+        let mut scan = Scan::new(grid, self.format, self.axes);
+        (scan.is_ct, scan.warnings, scan.names) = (self.is_ct, self.warnings, unfolded.names);
+        scan.warnings.extend(unfolded.offers.warning(0, unfolded.taken));
+        (scan.offers, scan.taken) = (unfolded.offers.list, unfolded.taken);
+        Ok(scan)
     }
 }

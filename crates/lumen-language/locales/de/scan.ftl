@@ -117,6 +117,7 @@ scan-known-range = es ist ein Scan mit Werten von { $low } bis { $high }
 scan-known-labels = es hat { $labels }
 scan-outside-box = Der Ausschnitt enthält nichts vom Volumen, das { $size } Voxel hat.
 scan-slice-too-large = Eine Schicht hat { $points } Voxel, von denen { $limit } bearbeitet werden können: einen Ausschnitt um die Gefäße setzen.
+scan-all-one-side = Es gibt keine Oberfläche: Das ganze Volumen liegt auf einer Seite.
 scan-one-side = Im Ausschnitt gibt es keine Oberfläche: Alles liegt auf einer Seite.
 scan-too-many-triangles = Die Oberfläche hat mehr als { $limit } Dreiecke, die meisten davon Rauschen oder Knochen: die Schwelle anheben oder einen Ausschnitt um die Gefäße setzen.
 
@@ -133,6 +134,10 @@ scan-points = Das Volumen hat { $points } Punkte und dafür { $samples } Zahlen.
 
 scan-no-volume = „{ $name }“ ist kein Volumen, das Lumen kennt: Es öffnet Dateien in NIfTI, NRRD, MetaImage und VTI und Serien in DICOM.
 scan-data-elsewhere = Der Kopf in { $format } hat seine Zahlen in der Datei „{ $name }“: beide zusammen öffnen.
+scan-dicom-mixed = { $places ->
+    [one] An einem Ort liegen mehrere Schichten, und nichts in den Dateien sagt, zu welchem Volumen jede gehört: die Dateien eines Volumens allein öffnen.
+   *[other] An { $places } Orten liegen je mehrere Schichten, und nichts in den Dateien sagt, zu welchem Volumen jede gehört: die Dateien eines Volumens allein öffnen.
+}
 scan-no-such-volume = { $count ->
     [one] Es gibt kein Volumen { $number }: Die Dateien enthalten eines.
    *[other] Es gibt kein Volumen { $number }: Die Dateien enthalten { $count }.
@@ -148,6 +153,9 @@ scan-unreadable = { $path } ist nicht lesbar
 scan-silent = Die { $format }-Datei sagt nicht, wie der Patient liegt: Die Achsen sind unbekannt.
 scan-silent-format = { $format } sagt nicht, wie der Patient liegt: Die Achsen sind unbekannt.
 scan-unknown-unit = Die Längeneinheit der { $format }-Datei, { $unit }, ist nicht bekannt: Sie wird als mm genommen.
+scan-nifti-no-matrix = Die Matrix (sform) der NIfTI-Datei ist keine, obwohl sie gelten soll: Ihr Quaternion (qform) wird genommen.
+scan-nifti-no-place = Die Matrix (sform) der NIfTI-Datei ist keine, und ein Quaternion (qform) hat sie nicht: Ihre Abstände werden genommen.
+scan-nifti-spacings = Die NIfTI-Datei widerspricht sich: Nach ihrer Matrix (sform) sind Voxel { $matrix } mm voneinander entfernt, nach ihren Abständen { $stated } mm. Die Matrix wird genommen.
 
 ## Was an einer Datei falsch ist
 
@@ -169,15 +177,11 @@ scan-dicom-no-directions = sie sagt nicht, wie ihre Schichten liegen
 scan-dicom-no-spacing = sie sagt nicht, wie weit ihre Pixel auseinanderliegen
 scan-dicom-no-places = sie sagt nicht, wo ihre Schichten liegen
 scan-dicom-no-slice = keine ihrer Dateien enthält eine Schicht in Graustufen
-scan-dicom-mixed = { $places ->
-    [one] an einem Ort hat sie mehrere Schichten, und nichts darin sagt, zu welchem Volumen jede gehört
-   *[other] an { $places } Orten hat sie je mehrere Schichten, und nichts darin sagt, zu welchem Volumen jede gehört
-}
 scan-dicom-single = sie enthält eine einzige Schicht, und eine Oberfläche braucht zwei oder mehr
 scan-vti-wrong = „{ $name }“ ist falsch
 scan-vti-no-element = das Element „{ $name }“ fehlt
 scan-vti-no-points = sie sagt nicht, wie viele Punkte es gibt
-scan-vti-no-array = sie hat kein Feld mit einer Zahl je Punkt
+scan-vti-no-array = sie hat kein Feld mit einer Zahl je Punkt oder Zelle
 
 ## Was nicht gelesen wird: ein Hauptwort im Akkusativ, hinter „verwendet“
 

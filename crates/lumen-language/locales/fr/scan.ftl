@@ -117,6 +117,7 @@ scan-known-range = c'est un scan aux valeurs de { $low } à { $high }
 scan-known-labels = il a { $labels }
 scan-outside-box = Le cadre ne contient rien du volume, qui a { $size } voxels.
 scan-slice-too-large = Une coupe a { $points } voxels, dont { $limit } peuvent être traités : placer un cadre autour des vaisseaux.
+scan-all-one-side = Il n'y a pas de surface : tout le volume se trouve du même côté.
 scan-one-side = Il n'y a pas de surface dans le cadre : tout se trouve du même côté.
 scan-too-many-triangles = La surface a plus de { $limit } triangles, pour la plupart du bruit ou des os : relever le seuil ou placer un cadre autour des vaisseaux.
 
@@ -133,6 +134,10 @@ scan-points = Le volume a { $points } points et { $samples } nombres pour ceux-c
 
 scan-no-volume = « { $name } » n'est pas un volume que Lumen connaît : il ouvre les fichiers NIfTI, NRRD, MetaImage et VTI et les séries DICOM.
 scan-data-elsewhere = L'en-tête { $format } garde ses nombres dans le fichier « { $name } » : ouvrir les deux ensemble.
+scan-dicom-mixed = { $places ->
+    [one] Plusieurs coupes se trouvent à une même place, et rien dans les fichiers ne dit à quel volume chacune appartient : ouvrez les fichiers d'un seul volume.
+   *[other] Plusieurs coupes se trouvent à chacune de { $places } places, et rien dans les fichiers ne dit à quel volume chacune appartient : ouvrez les fichiers d'un seul volume.
+}
 scan-no-such-volume = { $count ->
     [one] Il n'y a pas de volume { $number } : les fichiers n'en contiennent qu'un.
    *[other] Il n'y a pas de volume { $number } : les fichiers en contiennent { $count }.
@@ -148,6 +153,9 @@ scan-unreadable = { $path } est illisible
 scan-silent = Le fichier { $format } ne dit pas comment le patient est orienté : les axes sont inconnus.
 scan-silent-format = { $format } ne dit pas comment le patient est orienté : les axes sont inconnus.
 scan-unknown-unit = L'unité de longueur du fichier { $format }, { $unit }, n'est pas connue : elle est prise pour des mm.
+scan-nifti-no-matrix = La matrice (sform) du fichier NIfTI n'en est pas une, bien qu'elle doive servir : son quaternion (qform) est pris.
+scan-nifti-no-place = La matrice (sform) du fichier NIfTI n'en est pas une, et il n'a pas de quaternion (qform) : ses espacements sont pris.
+scan-nifti-spacings = Le fichier NIfTI se contredit : selon sa matrice (sform) les voxels sont à { $matrix } mm, selon ses espacements à { $stated } mm. La matrice est prise.
 
 ## Ce qui ne va pas dans un fichier
 
@@ -169,15 +177,11 @@ scan-dicom-no-directions = il ne dit pas comment ses coupes sont orientées
 scan-dicom-no-spacing = il ne dit pas à quelle distance sont ses pixels
 scan-dicom-no-places = il ne dit pas où sont ses coupes
 scan-dicom-no-slice = aucun de ses fichiers ne contient une coupe en niveaux de gris
-scan-dicom-mixed = { $places ->
-    [one] à une place elle a plusieurs coupes, et rien n'y dit à quel volume chacune appartient
-   *[other] à { $places } places elle a plusieurs coupes chacune, et rien n'y dit à quel volume chacune appartient
-}
 scan-dicom-single = il ne contient qu'une coupe, et une surface en demande deux ou plus
 scan-vti-wrong = « { $name } » est faux
 scan-vti-no-element = il n'a pas d'élément « { $name } »
 scan-vti-no-points = il ne dit pas combien de points il y a
-scan-vti-no-array = il n'a pas de tableau d'un nombre par point
+scan-vti-no-array = il n'a pas de tableau d'un nombre par point ou par cellule
 
 ## Ce qui n'est pas lu : derrière « utilise »
 

@@ -84,7 +84,7 @@ pub(super) fn read(parts: &[&Part], choice: Option<usize>) -> Result<Scan, ScanE
         warnings.push(ScanWarning::SamePlace { count: volume.twice }.into());
     }
     if volume.mixed > 0 {
-        return Err(missing(DicomProblem::Mixed { places: volume.mixed }));
+        return Err(ScanError::Mixed { places: volume.mixed });
     }
     let mut scan = if segments::are(&volume.slices) {
         segments::label_map(&volume)?

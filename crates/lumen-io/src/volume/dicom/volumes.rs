@@ -79,9 +79,13 @@ pub(super) fn split<'f, 'a>(mut slices: Vec<Slice<'f, 'a>>) -> Vec<Volume<'f, 'a
     by_height(&mut slices);
     let all = slices.len();
     slices.dedup_by(|a, b| is_same_file(a, b));
-    let mut found = best(&slices, DEEPEST);
-    if found.is_none() && deepest_place(&slices) > 1 {
-        slices.dedup_by(|next, kept| has_same_fields(next, kept) && is_twin(next, kept));
+    // Without those that are there twice under another name; where that is all, nothing is to be taken apart for them.
+    let mut single = slices.clone();
+    single.dedup_by(|next, kept| is_twin(next, kept) && has_same_fields(next, kept));
+    let only_twins = deepest_place(&single) == 1;
+    let mut found = if only_twins { None } else { best(&slices, DEEPEST) };
+    if found.is_none() {
+        slices = single;
         found = best(&slices, DEEPEST);
     }
     if let Some((field, parts)) = found {
@@ -96,7 +100,7 @@ pub(super) fn split<'f, 'a>(mut slices: Vec<Slice<'f, 'a>>) -> Vec<Volume<'f, 'a
 
 /// Whether two slices share a place and all of their pixels.
 fn is_twin(a: &Slice, b: &Slice) -> bool {
-    (a.height - b.height).abs() < SAME && same_pixels(a, b)
+    (a.height - b.height).abs() < SAME && a.position.distance(b.position) < SAME && same_pixels(a, b)
 }
 
 fn has_same_fields(a: &Slice, b: &Slice) -> bool {
