@@ -62,7 +62,9 @@ impl ScanOptions {
     /// Refuses where these options are given for what is no volume.
     pub(super) fn refuse(&self, name: &str) -> Result<()> {
         if self.is_any() {
-            return Err(misuse(format!("{name} is a surface: --threshold, --label, --volume and --box are for scans and masks")));
+            return Err(misuse(format!(
+                "{name} is a surface: --threshold, --label, --volume and --box are for scans and masks"
+            )));
         }
         Ok(())
     }
@@ -123,7 +125,8 @@ pub(super) fn open(names: &[String], options: &ScanOptions) -> Result<Option<Ope
         bail!("{} holds no files", names.join(", "));
     }
     let parts: Vec<Part> = files.iter().map(|(name, bytes)| Part { name, bytes }).collect();
-    let scan = volume::read_volume(&parts, options.volume.map(|number| number as usize - 1)).with_context(|| names[0].clone())?;
+    let scan = volume::read_volume(&parts, options.volume.map(|number| number as usize - 1))
+        .with_context(|| names[0].clone())?;
     drop(files);
     let volume::Scan { grid, format, axes, is_ct, warnings, offers, taken, names } = scan;
     let grid = Arc::new(grid);
@@ -179,7 +182,9 @@ impl Opened {
         let geometry = self.grid.geometry();
         let list = |values: [f64; 3]| values.map(|value| format!("{value:.4}")).join(", ");
         let [i, j, k] = geometry.size;
-        for (at, Offer { slices, by, value, series }) in self.offers.iter().enumerate().filter(|_| self.offers.len() > 1) {
+        for (at, Offer { slices, by, value, series }) in
+            self.offers.iter().enumerate().filter(|_| self.offers.len() > 1)
+        {
             let what = by.map_or_else(|| format!("series {}", series + 1), |by| format!("{by} {value}"));
             let taken = if at == self.taken { ", opened" } else { "" };
             row(&format!("volume {}", at + 1), format!("{slices} slices, {what}{taken}"));

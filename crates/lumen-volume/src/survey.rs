@@ -10,7 +10,7 @@ use lumen_mesh::task::{Yielder, at_once, blocks};
 pub const BINS: usize = 256;
 /// The most labels that a mask has beside 0; what has more values is a scan, as one of 8 bits is.
 const MAX_LABELS: usize = 64;
-/// By so much a label may lie beside its whole number.
+/// By so much a label may lie beside its whole number, and by this part of it.
 const BESIDE: f64 = 0.02;
 /// Numbers that are looked at between two looks at the clock.
 const STRETCH: usize = 1 << 18;
@@ -85,16 +85,19 @@ fn labels(grid: &Grid, values: &[(f64, u64)]) -> Vec<Label> {
     let mut values: Vec<(f64, u64)> = values.iter().map(|&(stored, points)| (grid.value_of(stored), points)).collect();
     values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let whole = |value: f64| libm::round(value);
-    let is_label =
-        |value: f64| (0.0..=65_535.0).contains(&whole(value)) && (value - whole(value)).abs() <= beside.min(LABEL_REACH);
+    let is_label = |value: f64| {
+        let beside = beside.max(BESIDE * value).min(LABEL_REACH);
+        (0.0..=65_535.0).contains(&whole(value)) && (value - whole(value)).abs() <= beside
+    };
     let is_one = |a: f64, b: f64| whole(a) != whole(b) || b - a <= BESIDE;
     // Without anything around it there is no mask.
     let has_both = matches!(&values[..], [(low, _), .., (high, _)] if whole(*low) == 0.0 && whole(*high) > 0.0);
     let is_mask = has_both
         && values.iter().all(|&(value, _)| is_label(value))
         && values.windows(2).all(|two| is_one(two[0].0, two[1].0));
-    let label = |group: &[(f64, u64)]| {
-        Label { value: whole(group[0].0) as i64, points: group.iter().map(|(_, points)| points).sum() }
+    let label = |group: &[(f64, u64)]| Label {
+        value: whole(group[0].0) as i64,
+        points: group.iter().map(|(_, points)| points).sum(),
     };
     let groups = values.chunk_by(|a, b| whole(a.0) == whole(b.0)).filter(|_| is_mask);
     groups.map(label).filter(|label| label.value != 0).collect()

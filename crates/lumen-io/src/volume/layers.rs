@@ -42,7 +42,8 @@ impl Layers {
         let (count, choice) = (self.count, self.choice);
         let points = samples.len() / count.max(1);
         let at = |point: usize, layer: usize| samples.stored(point * count + layer);
-        let overlaps = count > 1 && (0..points).any(|point| (0..count).filter(|&layer| at(point, layer) != 0.0).count() > 1);
+        let overlaps =
+            count > 1 && (0..points).any(|point| (0..count).filter(|&layer| at(point, layer) != 0.0).count() > 1);
         let volumes = if overlaps { count } else { 1 };
         let taken = choice.unwrap_or(0);
         if taken >= volumes {

@@ -168,5 +168,18 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
     };
     let (is_ct, scaling) = (header.is("Modality", "MET_MOD_CT"), [1.0, 0.0]);
     let (axes, layers) = (known, Layers::default());
-    Ok(Outline { format: FORMAT, geometry, layout, packing, file, start, skipped, scaling, axes, is_ct, warnings, layers })
+    Ok(Outline {
+        format: FORMAT,
+        geometry,
+        layout,
+        packing,
+        file,
+        start,
+        skipped,
+        scaling,
+        axes,
+        is_ct,
+        warnings,
+        layers,
+    })
 }

@@ -224,7 +224,8 @@ impl<'a> Header<'a> {
         if self.is_analyze {
             return None;
         }
-        let spans = |&(steps, _): &(DMat3, DVec3)| Geometry::from_steps([1; 3], steps * self.unit(), DVec3::ZERO).is_ok();
+        let spans =
+            |&(steps, _): &(DMat3, DVec3)| Geometry::from_steps([1; 3], steps * self.unit(), DVec3::ZERO).is_ok();
         let by_matrix = self.matrix();
         if let Some((steps, origin)) = by_matrix.filter(spans) {
             warnings.extend(self.contradiction(steps));
@@ -317,8 +318,11 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
         None => at,
     };
     let packing = if is_gzip(files[file].bytes) { Packing::Gzip } else { Packing::Plain };
-    let scaling =
-        if header.is_analyze { [1.0, 0.0] } else { [places.slope, places.intercept].map(|place| header.float(place, 0)) };
+    let scaling = if header.is_analyze {
+        [1.0, 0.0]
+    } else {
+        [places.slope, places.intercept].map(|place| header.float(place, 0))
+    };
     let (start, skipped) = (0, header.offset());
     Ok(Outline {
         format,

@@ -140,7 +140,8 @@ fn vectors(text: &str) -> Option<Vec<Option<[f64; 3]>>> {
     while !rest.is_empty() && found.len() <= MOST_AXES {
         let end = if rest.starts_with('(') { rest.find(')')? + 1 } else { rest.find([' ', '(']).unwrap_or(rest.len()) };
         let (vector, after) = rest.split_at(end);
-        found.push(if vector == "none" { None } else { Some(list(vector)?.try_into().ok()?) });
+        // Of a space of more axes the first three are the body's.
+        found.push(if vector == "none" { None } else { Some(*list(vector)?.first_chunk()?) });
         rest = after.trim_start();
     }
     Some(found)
@@ -204,12 +205,17 @@ fn geometry(header: &Header, grid: &Grid) -> Result<(Geometry, Axes, Vec<Warning
             DMat3::from_diagonal(DVec3::from(spacing))
         }
     };
-    let origin = header.numbers("spaceorigin", 3)?.and_then(|origin| origin.try_into().ok());
-    let origin = origin.map_or(DVec3::ZERO, |origin: [f64; 3]| DVec3::from(origin));
+    let origin = match header.get("spaceorigin") {
+        Some(text) => {
+            let problem = || ScanError::malformed(FORMAT, ScanProblem::NotNumbers { key: "spaceorigin", count: 3 });
+            list(text).and_then(|origin| origin.first_chunk().copied()).map(DVec3::from).ok_or_else(problem)?
+        }
+        None => DVec3::ZERO,
+    };
     let size = grid.size;
     let (mut warnings, space) = (Vec::new(), header.get("space").map(str::to_ascii_lowercase));
     let mut axes = Axes::Lps;
-    let (steps, origin) = match space.as_deref() {
+    let (steps, origin) = match space.as_deref().map(|space| space.trim_end_matches("-time")) {
         Some("left-posterior-superior" | "lps") => (steps, origin),
         Some("right-anterior-superior" | "ras") => ras_to_lps(steps, origin),
         Some("left-anterior-superior" | "las") => {
@@ -263,5 +269,18 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
     };
     let (is_ct, scaling) = (false, [1.0, 0.0]);
     let layers = Layers { count: grid.layers, segments: header.segments(), choice: None };
-    Ok(Outline { format: FORMAT, geometry, layout, packing, file, start, skipped, scaling, axes, is_ct, warnings, layers })
+    Ok(Outline {
+        format: FORMAT,
+        geometry,
+        layout,
+        packing,
+        file,
+        start,
+        skipped,
+        scaling,
+        axes,
+        is_ct,
+        warnings,
+        layers,
+    })
 }

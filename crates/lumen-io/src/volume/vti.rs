@@ -35,7 +35,8 @@ fn scan(image: &Image, format: &'static str) -> Result<Scan, ScanError> {
     let steps = direction * DMat3::from_diagonal(DVec3::from(image.spacing));
     let middle = if image.on_cells { 0.5 } else { 0.0 };
     let first = DVec3::from(image.extent.map(|[first, _]| first as f64 + middle));
-    let geometry = Geometry::from_steps(size, steps, DVec3::from(image.origin) + steps * first).map_err(VolumeError::from)?;
+    let geometry =
+        Geometry::from_steps(size, steps, DVec3::from(image.origin) + steps * first).map_err(VolumeError::from)?;
     let layout = |is_big_endian| Layout::new(format, size, image.scalar, is_big_endian);
     let samples = match &image.values {
         Values::Text(text) => layout(false)?.take_text(text)?,

@@ -28,8 +28,7 @@ struct Found<'a> {
 pub(crate) fn read<T>(bytes: &[u8], make: impl FnOnce(Image) -> T) -> Result<T, ReadError> {
     let pace = Pace::never();
     let (mut cursor, _) = begin(bytes, &pace)?;
-    let mut found =
-        Found { size: None, origin: [0.0; 3], spacing: [1.0; 3], on_cells: false, count: 0, array: None };
+    let mut found = Found { size: None, origin: [0.0; 3], spacing: [1.0; 3], on_cells: false, count: 0, array: None };
     while let Some(word) = cursor.word() {
         found.take(word, &mut cursor)?;
         if found.array.as_ref().is_some_and(|(_, on_cells)| !on_cells) {
@@ -65,9 +64,8 @@ impl<'a> Found<'a> {
                 let (_, kind) = (cursor.word(), cursor.word().unwrap_or_default());
                 let components = match cursor.rest_of_line() {
                     [] => 1,
-                    count => text::number(count).ok_or_else(|| {
-                        cursor.broken(TextProblem::NoCount { word: text::quoted(count) })
-                    })?,
+                    count => text::number(count)
+                        .ok_or_else(|| cursor.broken(TextProblem::NoCount { word: text::quoted(count) }))?,
                 };
                 if cursor.comes(b"LOOKUP_TABLE") {
                     let _ = (cursor.word(), cursor.word());
@@ -118,7 +116,8 @@ fn three(cursor: &mut Cursor) -> Result<[f64; 3], ReadError> {
     let mut found = [0.0; 3];
     for number in &mut found {
         let word = cursor.word().ok_or_else(|| cursor.broken(VtkProblem::EndsAtCount))?;
-        *number = text::number(word).ok_or_else(|| cursor.broken(TextProblem::NoNumber { word: text::quoted(word) }))?;
+        *number =
+            text::number(word).ok_or_else(|| cursor.broken(TextProblem::NoNumber { word: text::quoted(word) }))?;
     }
     Ok(found)
 }

@@ -87,7 +87,8 @@ impl<'a> File<'a> {
         let (rows, columns, allocated, stored) =
             (whole(tags::ROWS), whole(tags::COLUMNS), whole(tags::ALLOCATED), whole(tags::STORED));
         file.is_signed = whole(tags::SIGNED) == 1;
-        (file.rows, file.columns, file.bits_allocated, file.bits_stored) = (rows.into(), columns.into(), allocated, stored);
+        (file.rows, file.columns, file.bits_allocated, file.bits_stored) =
+            (rows.into(), columns.into(), allocated, stored);
         file.frames = file.own(tags::FRAMES).and_then(Value::number).map_or(1, |frames| frames as usize).max(1);
         Ok(file)
     }
@@ -102,7 +103,9 @@ impl<'a> File<'a> {
             }
             [] if tags::OWN.contains(&tag) => self.own.push(value),
             [tags::SHARED_GROUPS, group] if tags::GROUPED.contains(&(group, tag)) => self.shared.push(value),
-            [tags::FRAME_GROUPS, group] if tags::GROUPED.contains(&(group, tag)) => item_of(&mut self.each, item).push(value),
+            [tags::FRAME_GROUPS, group] if tags::GROUPED.contains(&(group, tag)) => {
+                item_of(&mut self.each, item).push(value)
+            }
             [tags::SEGMENTS] if tags::OF_SEGMENT.contains(&tag) => item_of(&mut self.segments, item).push(value),
             _ => {}
         }
@@ -265,7 +268,9 @@ fn meta(bytes: &[u8]) -> (String, &[u8]) {
         // Explicit, as the standard has it, or as some write it.
         let (length, at) = match [a, b] {
             [b'O', b'B' | b'W'] | [b'U', b'N' | b'T'] | [b'S', b'Q'] => (rest.get(8..12).map(long), 12),
-            [b'A'..=b'Z', b'A'..=b'Z'] => (rest.get(6..8).map(|short| usize::from(short[0]) | usize::from(short[1]) << 8), 8),
+            [b'A'..=b'Z', b'A'..=b'Z'] => {
+                (rest.get(6..8).map(|short| usize::from(short[0]) | usize::from(short[1]) << 8), 8)
+            }
             _ => (rest.get(4..8).map(long), 8),
         };
         let end = length.and_then(|length| length.checked_add(at));
@@ -289,11 +294,11 @@ fn packing(syntax: &str, data_set: &[u8]) -> Result<(Packing, TransferSyntax), S
     let refused = |what: Feature| Err(ScanError::unsupported(FORMAT, what));
     let looks = detect::data_set(data_set);
     match syntax.strip_prefix("1.2.840.10008.1.2").unwrap_or(if syntax.is_empty() { "" } else { "?" }) {
-        "" | ".1" if looks == Some(DataSet::Implicit) => Ok((Packing::Little, entries::IMPLICIT_VR_LITTLE_ENDIAN.erased())),
-        "" | ".1" if looks == Some(DataSet::Explicit) => Ok((Packing::Little, explicit)),
-        "" | ".1" if looks == Some(DataSet::BigEndian) => {
-            Ok((Packing::Big, entries::EXPLICIT_VR_BIG_ENDIAN.erased()))
+        "" | ".1" if looks == Some(DataSet::Implicit) => {
+            Ok((Packing::Little, entries::IMPLICIT_VR_LITTLE_ENDIAN.erased()))
         }
+        "" | ".1" if looks == Some(DataSet::Explicit) => Ok((Packing::Little, explicit)),
+        "" | ".1" if looks == Some(DataSet::BigEndian) => Ok((Packing::Big, entries::EXPLICIT_VR_BIG_ENDIAN.erased())),
         "" => Ok((Packing::Little, entries::IMPLICIT_VR_LITTLE_ENDIAN.erased())),
         ".1" => Ok((Packing::Little, explicit)),
         ".2" => Ok((Packing::Big, entries::EXPLICIT_VR_BIG_ENDIAN.erased())),

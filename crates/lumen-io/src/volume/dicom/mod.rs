@@ -205,7 +205,8 @@ fn belong_together(a: &Slice, b: &Slice) -> bool {
     let same_spacing = a.spacing.iter().zip(b.spacing).all(|(a, b)| (a - b).abs() < SAME);
     let form = |file: &File| (file.rows, file.columns, file.bits_allocated, file.is_signed, file.is_segmentation());
     let same_file = std::ptr::eq(a.file, b.file);
-    same_way && same_spacing
+    same_way
+        && same_spacing
         && (same_file || form(a.file) == form(b.file) && a.file.text(tags::SERIES) == b.file.text(tags::SERIES))
 }
 

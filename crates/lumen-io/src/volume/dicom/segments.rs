@@ -4,8 +4,9 @@
 //! are empty. Where segments overlap no map can hold them, and each is a volume of its own.
 
 use super::super::super::axes::Axes;
-use super::super::super::problem::ScanProblem;
 use super::super::super::numbers::Scalar;
+use super::super::super::problem::DicomProblem;
+use super::super::super::problem::ScanProblem;
 use super::super::super::warnings::VolumeField;
 use super::super::error::ScanError;
 use super::super::numbers::{Layout, MAX_UNFOLDED};
@@ -13,7 +14,6 @@ use super::super::outline::Scan;
 use super::file::FORMAT;
 use super::volumes::Volume;
 use super::{SAME, Slice, geometry, missing, pixels, tags};
-use super::super::super::problem::DicomProblem;
 use lumen_volume::{Grid, Samples};
 
 /// By so much of a step a frame may lie beside a slice.
@@ -21,9 +21,9 @@ const OFF: f64 = 0.1;
 
 /// Whether slices are frames of segments. A map of labels is an image as any other.
 pub(super) fn are(slices: &[Slice]) -> bool {
-    slices.first().is_some_and(|slice| {
-        slice.file.is_segmentation() && slice.file.text(tags::SEGMENTATION_TYPE) != "LABELMAP"
-    })
+    slices
+        .first()
+        .is_some_and(|slice| slice.file.is_segmentation() && slice.file.text(tags::SEGMENTATION_TYPE) != "LABELMAP")
 }
 
 /// All segments as one volume, or each as its own where they overlap.
@@ -33,16 +33,24 @@ pub(super) fn split<'f, 'a>(mut slices: Vec<Slice<'f, 'a>>) -> Vec<Volume<'f, 'a
     slices.dedup_by(|a, b| a.height - b.height < SAME && segment(a) == segment(b));
     let twice = all - slices.len();
     if !overlap(&slices) {
-        return vec![Volume { slices, by: None, twice, mixed: 0 }];
+        return vec![Volume { slices, by: None, segment: None, twice, mixed: 0 }];
     }
     let mut numbers: Vec<u16> = slices.iter().map(segment).collect();
     numbers.sort_unstable();
     numbers.dedup();
     let names: Vec<_> = slices[0].file.segments().collect();
     let volume = |number: u16| {
-        let name = names.iter().find(|(known, _)| *known == number).map_or_else(|| number.to_string(), |(_, name)| name.clone());
-        let slices = slices.iter().filter(|slice| segment(slice) == number).copied().collect();
-        Volume { slices, by: Some((VolumeField::Segment, name)), twice, mixed: 0 }
+        let name = names
+            .iter()
+            .find(|(known, _)| *known == number)
+            .map_or_else(|| number.to_string(), |(_, name)| name.clone());
+        Volume {
+            slices: slices.clone(),
+            by: Some((VolumeField::Segment, name)),
+            segment: Some(number),
+            twice,
+            mixed: 0,
+        }
     };
     numbers.into_iter().map(volume).collect()
 }
@@ -87,7 +95,10 @@ pub(super) fn label_map(volume: &Volume) -> Result<Scan, ScanError> {
     let step = (slices[slices.len() - 1].position - first.position) / last as f64;
     let geometry = geometry(first, last + 1, step)?;
     let layout = Layout::new(FORMAT, geometry.size, Scalar::U16, false)?;
-    let bytes = slices.iter().map(|slice| slice.file).map(|file| file.pixels.iter().map(|pixels| pixels.len() as u64).sum::<u64>());
+    let bytes = slices
+        .iter()
+        .map(|slice| slice.file)
+        .map(|file| file.pixels.iter().map(|pixels| pixels.len() as u64).sum::<u64>());
     let bytes = bytes.max().unwrap_or(0);
     if layout.bytes() > MAX_UNFOLDED.saturating_mul(bytes) {
         return Err(ScanError::malformed(FORMAT, ScanProblem::Packed { needed: layout.bytes(), bytes }));
@@ -96,7 +107,9 @@ pub(super) fn label_map(volume: &Volume) -> Result<Scan, ScanError> {
     labels.try_reserve_exact(layout.points).map_err(|_| ScanError::Memory { bytes: layout.bytes() })?;
     labels.resize(layout.points, 0);
     let plane = geometry.size[0] * geometry.size[1];
-    for (slice, row) in slices.iter().zip(rows) {
+    for (slice, row) in
+        slices.iter().zip(rows).filter(|(slice, _)| volume.segment.is_none_or(|only| only == segment(slice)))
+    {
         let target = labels.iter_mut().skip(row * plane);
         target.zip(inside(slice)?).filter(|(_, inside)| *inside).for_each(|(label, _)| *label = segment(slice));
     }

@@ -58,6 +58,8 @@ pub(super) struct Volume<'f, 'a> {
     pub(super) slices: Vec<Slice<'f, 'a>>,
     /// What tells it from the others of its series, and what it has there.
     pub(super) by: Option<(VolumeField, String)>,
+    /// The segment that it is of, where the slices are of several.
+    pub(super) segment: Option<u16>,
     /// Slices that are there twice and were left out.
     pub(super) twice: usize,
     /// Places at which slices lie that differ, and that nothing tells apart.
@@ -90,12 +92,12 @@ pub(super) fn split<'f, 'a>(mut slices: Vec<Slice<'f, 'a>>) -> Vec<Volume<'f, 'a
     }
     if let Some((field, parts)) = found {
         let twice = all - slices.len();
-        let volume = |(value, slices)| Volume { slices, by: Some((field, value)), twice, mixed: 0 };
+        let volume = |(value, slices)| Volume { slices, by: Some((field, value)), segment: None, twice, mixed: 0 };
         return parts.into_iter().map(volume).collect();
     }
     slices.dedup_by(|next, kept| is_twin(next, kept));
     let (twice, mixed) = (all - slices.len(), places(&slices).filter(|place| place.len() > 1).count());
-    vec![Volume { slices, by: None, twice, mixed }]
+    vec![Volume { slices, by: None, segment: None, twice, mixed }]
 }
 
 /// Whether two slices share a place and all of their pixels.
@@ -133,7 +135,9 @@ fn best<'f, 'a>(slices: &[Slice<'f, 'a>], depth: usize) -> Option<Split<'f, 'a>>
         [runs(slices, tag), ranks(slices, tag)].into_iter().flatten().map(move |parts| (field, parts))
     });
     let by_place = alternate(slices).map(|parts| (VolumeField::Place, parts));
-    let is_apart = |(field, parts): &Split| if is_shared { unshared(slices, *field, parts) } else { interleaved(slices, *field, parts) };
+    let is_apart = |(field, parts): &Split| {
+        if is_shared { unshared(slices, *field, parts) } else { interleaved(slices, *field, parts) }
+    };
     let found = by_value.chain(by_order).chain(by_place).filter(is_apart).min_by_key(|(_, parts)| parts.len());
     if found.is_some() || !is_shared || depth == 0 {
         return found;
@@ -178,7 +182,11 @@ fn unshared(slices: &[Slice], field: VolumeField, parts: &[(String, Vec<Slice>)]
 fn interleaved(slices: &[Slice], field: VolumeField, parts: &[(String, Vec<Slice>)]) -> bool {
     let is_plain = matches!(
         field,
-        VolumeField::Time | VolumeField::HeartPhase | VolumeField::Echo | VolumeField::Acquisition | VolumeField::BValue
+        VolumeField::Time
+            | VolumeField::HeartPhase
+            | VolumeField::Echo
+            | VolumeField::Acquisition
+            | VolumeField::BValue
     );
     // Places alone have to be plain.
     let tolerance = if field == VolumeField::Place { 0.1 * UNEVEN } else { UNEVEN };
@@ -301,7 +309,8 @@ fn ranks<'f, 'a>(slices: &[Slice<'f, 'a>], tag: Tag) -> Option<Vec<(String, Vec<
     let mut keys = vec![Vec::new(); most];
     for place in places(slices) {
         let held = held(place, tag);
-        let is_told = held.windows(2).all(|two| two[0].0 != two[1].0) && held.iter().all(|(held, _)| *held != Held::Nothing);
+        let is_told =
+            held.windows(2).all(|two| two[0].0 != two[1].0) && held.iter().all(|(held, _)| *held != Held::Nothing);
         if held.len() != most || !is_told {
             return None;
         }
