@@ -9,8 +9,8 @@ use serde::Serialize;
 
 use super::misuse::misuse;
 use super::rows::row;
-use crate::io::volume::{self, Offer, Part};
-use crate::io::{Axes, Imported, Warning, import_mesh, in_english};
+use crate::io::volume::{self, Part};
+use crate::io::{Axes, Imported, Offer, Warning, import_mesh, in_english};
 use crate::volume::{Grid, Label, PRESETS, Region, Selection, Survey, surface, survey};
 
 /// What is said of a folder without surfaces: it may be a scan.

@@ -12,6 +12,7 @@ const EXPLICIT: &str = "1.2.840.10008.1.2.1";
 const BIG: &str = "1.2.840.10008.1.2.2";
 const RLE: &str = "1.2.840.10008.1.2.5";
 const BASELINE: &str = "1.2.840.10008.1.2.4.50";
+const JPEG_2000: &str = "1.2.840.10008.1.2.4.90";
 const LOSSLESS: &str = "1.2.840.10008.1.2.4.70";
 
 /// The name that no reader may ever repeat.
@@ -259,6 +260,44 @@ fn baseline_pictures_are_read() {
     let scan = open(&slices.collect::<Vec<_>>()).unwrap();
     assert_eq!(scan.grid.geometry().size, [24, 16, 2]);
     assert_eq!([0, 1].map(|k| scan.grid.value([23, 15, k])), [0.5 * 200.0 - 1000.0, 0.5 * 201.0 - 1000.0]);
+}
+
+/// A ramp of `8 i + j` in 32 x 32 pixels, and the same less 1000 in signed numbers, packed by OpenJPEG 2.5.
+const RAMPS: [&str; 2] = [
+    "ff4fff510029000000000020000000200000000000000000000000200000002000000000000000000001080101ff52000c00000001000504040001\
+     ff5c00134048505058505058505058505058505058ff640025000143726561746564206279204f70656e4a5045472076657273696f6e20322e352e\
+     32ff90000a0000000000570001ff93cfc00805a7c7e00503e704045f043fc3ed0380f901800d02050b3d7fc1f502c03e10c0221a085d8f037fbfc0\
+     f9c3c01d0c36a199ae63a35f3da633c07c816004605fa7c788b79dac29ffd9",
+    "ff4fff5100290000000000200000002000000000000000000000002000000020000000000000000000018a0101ff52000c00000001000504040001\
+     ff5c00134058606068606068606068606068606068ff640025000143726561746564206279204f70656e4a5045472076657273696f6e20322e352e\
+     32ff90000a0000000000590001ff93cfd8080969c1f801403e7040045f043fc0fb40e00f90180d02050b3d7fc07d40b003e10c221a085d8f037fbf\
+     c03e70f001d0c036a199ae63a35f3da633c01f205800465fa7c788b79dac29ffd9",
+];
+
+fn ramp(signed: usize, k: usize) -> File {
+    let byte = |at: usize| u8::from_str_radix(&RAMPS[signed][at..at + 2], 16).unwrap();
+    let picture = (0..RAMPS[signed].len()).step_by(2).map(byte).collect();
+    let mut slice =
+        File::slice(JPEG_2000, k).with(0x0028, 0x0103, short(signed as u16)).with(0x0028, 0x0101, short(16));
+    slice = slice.with(0x0028, 0x0010, short(32)).with(0x0028, 0x0011, short(32));
+    slice.fragments = Some(vec![Vec::new(), padded(picture)]);
+    slice
+}
+
+#[test]
+fn jpeg_2000_is_read() {
+    for (signed, less) in [0.0, 1000.0].into_iter().enumerate() {
+        let scan = open(&[0, 1].map(|k| (NAMES[k], ramp(signed, k).bytes()))).unwrap();
+        for (i, j) in [(0, 0), (31, 0), (0, 31), (17, 9)] {
+            assert_eq!(scan.grid.value([i, j, 1]), 0.5 * ((8 * i + j) as f64 - less) - 1000.0, "{signed}");
+        }
+        let cut = |k: usize| {
+            let mut slice = ramp(signed, k);
+            slice.fragments.as_mut().unwrap()[1].truncate(60);
+            (NAMES[k], slice.bytes())
+        };
+        assert!(open(&[0, 1].map(cut)).is_err());
+    }
 }
 
 #[test]
@@ -660,7 +699,7 @@ fn what_no_volume_can_be_made_of_is_refused() {
         "The DICOM file uses 12 bits a pixel, which Lumen does not read."
     );
     assert_eq!(
-        refused(|file| File { syntax: "1.2.840.10008.1.2.4.90", ..file }),
+        refused(|file| File { syntax: "1.2.840.10008.1.2.4.201", ..file }),
         "The DICOM file uses JPEG 2000 compression, which Lumen does not read."
     );
     let one = open(&series(EXPLICIT)[..1]).unwrap_err().to_string();

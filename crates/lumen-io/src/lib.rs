@@ -13,6 +13,7 @@ mod import;
 mod memory_budget;
 mod numbers;
 mod obj;
+mod offer;
 mod output;
 mod pace;
 mod parsing;
@@ -39,13 +40,14 @@ pub use error::{Counted, Elements, Feature, Named, ReadError, Unfolded, Unnamed,
 pub use estimate::{Estimate, estimate};
 pub use formats::Format;
 pub use import::{import_made, import_mesh};
+pub use offer::{Offer, VolumeField};
 pub use output::Output;
 pub use places::{LeftOut, left_out};
 pub use reading::{read, read_in_slices};
 pub use report::{ImportReport, Imported, Skipped};
 pub use size::{InUnits, Length, UnusualSize};
 pub use unit::{Unit, UnknownUnit};
-pub use warnings::{ArrayProblem, ScanWarning, VolumeField, Warning, in_english};
+pub use warnings::{ArrayProblem, ScanWarning, Warning, in_english};
 
 use serde::{Deserialize, Serialize};
 

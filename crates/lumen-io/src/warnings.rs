@@ -4,6 +4,7 @@ use lumen_message::{Told, grouped, messages};
 use serde::{Deserialize, Serialize};
 
 use super::Unit;
+use super::offer::VolumeField;
 use super::report::{ImportReport, Skipped};
 use super::size::{Length, UnusualSize};
 
@@ -159,32 +160,6 @@ messages! {
             "The slices are not evenly apart: mostly {usual:.3} mm, but {there:.3} mm between slices {below} and {above}; some may be missing, and the surface is stretched there.",
         "scan-dicom-squeeze" Squeeze { usual: f64 [3], there: f64 [3], below: usize, above: usize } =>
             "The slices are not evenly apart: mostly {usual:.3} mm, but {there:.3} mm between slices {below} and {above}; the surface is pressed together there.",
-    }
-}
-
-messages! {
-    /// What tells the volumes of a series, or of a file, apart.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[allow(missing_docs, reason = "its words say what each is")]
-    pub enum VolumeField {
-        "scan-by-time" Time => "temporal position",
-        "scan-by-heart-phase" HeartPhase => "heart phase",
-        "scan-by-trigger" Trigger => "trigger time",
-        "scan-by-echo" Echo => "echo",
-        "scan-by-b-value" BValue => "b-value",
-        "scan-by-image-type" ImageType => "image type",
-        "scan-by-stack" Stack => "stack",
-        "scan-by-acquisition" Acquisition => "acquisition number",
-        "scan-by-thickness" Thickness => "slice thickness",
-        "scan-by-kernel" Kernel => "kernel",
-        "scan-by-voltage" Voltage => "tube voltage",
-        "scan-by-reference-frame" ReferenceFrame => "frame of reference",
-        "scan-by-moment" Moment => "the time they were made",
-        "scan-by-order" Order => "the numbers of their slices",
-        "scan-by-place" Place => "the places of their slices",
-        "scan-by-several" Several => "several fields",
-        "scan-by-segment" Segment => "segment",
-        "scan-by-layer" Layer => "layer",
     }
 }
 

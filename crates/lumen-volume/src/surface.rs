@@ -205,8 +205,11 @@ mod tests {
         let outside = Region { first: [61, 0, 0], last: [70, 9, 9] };
         let refused = surface(grid.clone(), Selection::Threshold(300.0), Some(outside)).unwrap_err();
         assert_eq!(refused.to_string(), "The box holds nothing of the volume, which has 61 x 52 x 43 voxels.");
+        let corner = Region { first: [0; 3], last: [2; 3] };
+        let all_outside = surface(grid.clone(), Selection::Threshold(300.0), Some(corner));
+        assert_eq!(all_outside, Err(VolumeError::NoSurface));
         let all_inside = surface(grid, Selection::Threshold(-32_768.0), None);
-        assert_eq!(all_inside, Err(VolumeError::NoSurface));
+        assert_eq!(all_inside, Err(VolumeError::NothingThere));
     }
 
     #[test]

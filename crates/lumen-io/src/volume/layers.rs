@@ -2,9 +2,9 @@
 //!
 //! Where none overlap they become one map. Where they do no map can hold them, and each layer is a volume of its own.
 
-use super::super::warnings::VolumeField;
+use super::super::offer::{Offer, VolumeField};
 use super::error::ScanError;
-use super::outline::{Offer, Offers};
+use super::outline::Offers;
 use lumen_volume::{SampleType, Samples};
 
 /// A segment: a label of a layer.

@@ -32,7 +32,7 @@ pub use error::ScanError;
 #[cfg(not(target_arch = "wasm32"))]
 pub use files::{Files, Unreadable, find, gather};
 pub use headers::{data_name, is_volume};
-pub use outline::{Offer, Scan};
+pub use outline::Scan;
 pub use parts::{HEAD, Head, Part};
 pub use stream::{Stream, begin};
 

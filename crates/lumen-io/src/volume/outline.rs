@@ -1,12 +1,12 @@
 //! What a header says of its volume, and the volume that comes of it with its numbers.
 
 use super::super::axes::Axes;
-use super::super::warnings::{ScanWarning, VolumeField, Warning};
+use super::super::offer::Offer;
+use super::super::warnings::{ScanWarning, Warning};
 use super::error::ScanError;
 pub(super) use super::layers::{Layers, Segment};
 use super::numbers::{Layout, Packing};
 use lumen_volume::{Geometry, Grid, Samples};
-use serde::{Deserialize, Serialize};
 
 /// A volume as it was read.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,20 +37,7 @@ impl Scan {
     }
 }
 
-/// One of the volumes that some files hold.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Offer {
-    /// The number of its series, from 0.
-    pub series: usize,
-    /// How many slices it has.
-    pub slices: usize,
-    /// What tells it from the others of its series.
-    pub by: Option<VolumeField>,
-    /// What it has there.
-    pub value: String,
-}
-
-/// All of them.
+/// All volumes that some files hold.
 #[derive(Default)]
 pub(super) struct Offers {
     pub(super) list: Vec<Offer>,

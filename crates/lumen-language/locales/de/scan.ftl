@@ -12,6 +12,13 @@ scan-spacing = Abstand
 scan-spacing-help = Zwischen Spalten, Zeilen und Schichten
 scan-values = Werte
 scan-values-range = { $low } bis { $high }{ $unit }
+scan-volume = Volumen
+scan-volume-help = Welches der Volumen in den Dateien gezeigt wird; ein anderes wird neu gelesen
+scan-volume-offer = { $slices ->
+    [one] { $what } ({ $slices } Schicht)
+   *[other] { $what } ({ $slices } Schichten)
+}
+scan-volume-series = Serie { $number }
 scan-threshold = Schwelle
 scan-threshold-help = Was diesen Wert und mehr hat, ist das Gefäß; kontrastierte Gefäße im CT haben 150 bis 500 HU.
 scan-histogram = Histogramm mit der Schwelle
@@ -19,6 +26,7 @@ scan-vessel = Gefäß
 scan-vessel-help = Welches Label der Maske das Gefäß ist
 scan-vessel-label = Label des Gefäßes
 scan-label = Label { $label }
+scan-label-named = Label { $label }: { $name }
 scan-all-labels = Alle Labels
 scan-box = Ausschnitt
 scan-box-help = Nur diese Voxel werden betrachtet: Was außerhalb liegt, etwa Knochen, wird weggelassen
@@ -208,7 +216,7 @@ scan-dicom-same-place = { $count ->
     [one] Eine Schicht ist zweimal da, am selben Ort und mit denselben Pixeln: Eine davon wird genommen.
    *[other] { $count } Schichten sind zweimal da, am selben Ort und mit denselben Pixeln: Je eine davon wird genommen.
 }
-scan-volumes = Die Dateien enthalten { $count } Volumen einer Serie, unterschieden durch { $by }; jedes mit seiner Zahl von Schichten: { $list }. Geöffnet ist { $taken }.
+scan-volumes = Die Dateien enthalten { $count } Volumen einer Serie, unterschieden nach: { $by }; jedes mit seiner Zahl von Schichten: { $list }. Geöffnet ist { $taken }.
 scan-dicom-series = { $others ->
     [one] Die Dateien enthalten { $count } Serien: Die mit den meisten Schichten, { $taken }, wird genommen, und { $slices } der anderen werden weggelassen.
    *[other] Die Dateien enthalten { $count } Serien: Die mit den meisten Schichten, { $taken }, wird genommen, und { $slices } von { $others } anderen werden weggelassen.
@@ -220,26 +228,26 @@ scan-dicom-no-slices = { $count ->
 scan-dicom-gap = Die Schichten haben keinen gleichmäßigen Abstand: meist { $usual } mm, aber { $there } mm zwischen den Schichten { $below } und { $above }; einige fehlen vielleicht, und die Oberfläche ist dort gestreckt.
 scan-dicom-squeeze = Die Schichten haben keinen gleichmäßigen Abstand: meist { $usual } mm, aber { $there } mm zwischen den Schichten { $below } und { $above }; die Oberfläche ist dort gestaucht.
 
-## Was die Volumen einer Serie unterscheidet: im Akkusativ, hinter „durch“
+## Was die Volumen einer Serie unterscheidet: hinter einem Doppelpunkt, und vor seinem Wert
 
-scan-by-time = die zeitliche Position
-scan-by-heart-phase = die Herzphase
-scan-by-trigger = die Triggerzeit
-scan-by-echo = das Echo
-scan-by-b-value = den b-Wert
-scan-by-image-type = die Bildart
-scan-by-stack = den Stapel
-scan-by-acquisition = die Nummer der Aufnahme
-scan-by-thickness = die Schichtdicke
-scan-by-kernel = den Faltungskern
-scan-by-voltage = die Röhrenspannung
-scan-by-reference-frame = das Bezugssystem
-scan-by-moment = die Zeit ihrer Entstehung
-scan-by-order = die Nummern ihrer Schichten
-scan-by-place = die Orte ihrer Schichten
+scan-by-time = zeitliche Position
+scan-by-heart-phase = Herzphase
+scan-by-trigger = Triggerzeit
+scan-by-echo = Echo
+scan-by-b-value = b-Wert
+scan-by-image-type = Bildart
+scan-by-stack = Stapel
+scan-by-acquisition = Nummer der Aufnahme
+scan-by-thickness = Schichtdicke
+scan-by-kernel = Faltungskern
+scan-by-voltage = Röhrenspannung
+scan-by-reference-frame = Bezugssystem
+scan-by-moment = Zeitpunkt
+scan-by-order = Nummern der Schichten
+scan-by-place = Lage der Schichten
 scan-by-several = mehrere Felder
-scan-by-segment = das Segment
-scan-by-layer = die Ebene
+scan-by-segment = Segment
+scan-by-layer = Ebene
 
 ## Der Browser
 

@@ -12,6 +12,13 @@ scan-spacing = Pas
 scan-spacing-help = Entre les colonnes, les lignes et les coupes
 scan-values = Valeurs
 scan-values-range = { $low } à { $high }{ $unit }
+scan-volume = Volume
+scan-volume-help = Lequel des volumes des fichiers est montré ; un autre est lu à nouveau
+scan-volume-offer = { $slices ->
+    [one] { $what } ({ $slices } coupe)
+   *[other] { $what } ({ $slices } coupes)
+}
+scan-volume-series = série { $number }
 scan-threshold = Seuil
 scan-threshold-help = Ce qui a cette valeur ou plus est le vaisseau ; les vaisseaux opacifiés au scanner ont de 150 à 500 HU.
 scan-histogram = Histogramme, avec le seuil
@@ -19,6 +26,7 @@ scan-vessel = Vaisseau
 scan-vessel-help = Quelle étiquette du masque est le vaisseau
 scan-vessel-label = Étiquette du vaisseau
 scan-label = Étiquette { $label }
+scan-label-named = Étiquette { $label } : { $name }
 scan-all-labels = Toutes
 scan-box = Cadre
 scan-box-help = Seuls ces voxels sont examinés : ce qui est en dehors, comme les os, est omis
@@ -208,7 +216,7 @@ scan-dicom-same-place = { $count ->
     [one] Une coupe est présente deux fois, à la même place et avec les mêmes pixels : une seule est prise.
    *[other] { $count } coupes sont présentes deux fois, à la même place et avec les mêmes pixels : une seule de chaque est prise.
 }
-scan-volumes = Les fichiers contiennent { $count } volumes d'une même série, distingués par { $by } ; chacun avec son nombre de coupes : { $list }. Le volume ouvert est { $taken }.
+scan-volumes = Les fichiers contiennent { $count } volumes d'une même série, distingués par : { $by } ; chacun avec son nombre de coupes : { $list }. Le volume ouvert est { $taken }.
 scan-dicom-series = { $others ->
     [one] Les fichiers contiennent { $count } séries : celle qui a le plus de coupes, { $taken }, est prise, et { $slices } de l'autre sont omises.
    *[other] Les fichiers contiennent { $count } séries : celle qui a le plus de coupes, { $taken }, est prise, et { $slices } de { $others } autres sont omises.
@@ -220,26 +228,26 @@ scan-dicom-no-slices = { $count ->
 scan-dicom-gap = Les coupes ne sont pas régulièrement espacées : le plus souvent { $usual } mm, mais { $there } mm entre les coupes { $below } et { $above } ; il en manque peut-être, et la surface y est étirée.
 scan-dicom-squeeze = Les coupes ne sont pas régulièrement espacées : le plus souvent { $usual } mm, mais { $there } mm entre les coupes { $below } et { $above } ; la surface y est comprimée.
 
-## Ce qui distingue les volumes d'une série : derrière « par »
+## Ce qui distingue les volumes d'une série : derrière deux-points, et devant sa valeur
 
-scan-by-time = la position temporelle
-scan-by-heart-phase = la phase cardiaque
-scan-by-trigger = le temps de déclenchement
-scan-by-echo = l'écho
-scan-by-b-value = la valeur b
-scan-by-image-type = le type d'image
-scan-by-stack = la pile
-scan-by-acquisition = le numéro d'acquisition
-scan-by-thickness = l'épaisseur de coupe
-scan-by-kernel = le noyau de convolution
-scan-by-voltage = la tension du tube
-scan-by-reference-frame = le repère
-scan-by-moment = le moment de leur création
-scan-by-order = les numéros de leurs coupes
-scan-by-place = les positions de leurs coupes
+scan-by-time = position temporelle
+scan-by-heart-phase = phase cardiaque
+scan-by-trigger = temps de déclenchement
+scan-by-echo = écho
+scan-by-b-value = valeur b
+scan-by-image-type = type d'image
+scan-by-stack = pile
+scan-by-acquisition = numéro d'acquisition
+scan-by-thickness = épaisseur de coupe
+scan-by-kernel = noyau de convolution
+scan-by-voltage = tension du tube
+scan-by-reference-frame = repère
+scan-by-moment = moment
+scan-by-order = numéros des coupes
+scan-by-place = positions des coupes
 scan-by-several = plusieurs champs
-scan-by-segment = le segment
-scan-by-layer = la couche
+scan-by-segment = segment
+scan-by-layer = couche
 
 ## Le navigateur
 

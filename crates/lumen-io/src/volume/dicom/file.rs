@@ -35,6 +35,7 @@ pub(super) enum Packing {
     Big,
     Rle,
     Jpeg,
+    Jpeg2000,
 }
 
 /// What an element says.
@@ -193,7 +194,9 @@ impl<'a> File<'a> {
 
     /// The frames that there are, which are no more than the bytes of the file can hold: packed ones have a fragment each.
     pub(super) fn held_frames(&self) -> usize {
-        let bits = (self.rows * self.columns).saturating_mul(self.bits_allocated.into()).max(1);
+        /// Frames of fewer bits are none.
+        const LEAST: usize = 64;
+        let bits = (self.rows * self.columns).saturating_mul(self.bits_allocated.into()).max(LEAST);
         let bytes: usize = self.pixels.iter().map(|fragment| fragment.len()).sum();
         self.frames.min(self.pixels.len().max(bytes.saturating_mul(8) / bits).max(self.each.len()))
     }
@@ -306,7 +309,9 @@ fn packing(syntax: &str, data_set: &[u8]) -> Result<(Packing, TransferSyntax), S
         ".4.50" | ".4.51" | ".4.57" | ".4.70" => Ok((Packing::Jpeg, explicit)),
         ".1.99" => refused(Feature::Deflated),
         ".4.80" | ".4.81" => refused(Feature::JpegLs),
-        ".4.90" | ".4.91" | ".4.201" | ".4.202" | ".4.203" => refused(Feature::Jpeg2000),
+        ".4.90" | ".4.91" => Ok((Packing::Jpeg2000, explicit)),
+        // Of several components, and of high throughput.
+        ".4.92" | ".4.93" | ".4.201" | ".4.202" | ".4.203" => refused(Feature::Jpeg2000),
         _ => refused(Feature::UnknownCompression),
     }
 }

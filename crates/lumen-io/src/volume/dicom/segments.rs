@@ -5,9 +5,9 @@
 
 use super::super::super::axes::Axes;
 use super::super::super::numbers::Scalar;
+use super::super::super::offer::VolumeField;
 use super::super::super::problem::DicomProblem;
 use super::super::super::problem::ScanProblem;
-use super::super::super::warnings::VolumeField;
 use super::super::error::ScanError;
 use super::super::numbers::{Layout, MAX_UNFOLDED};
 use super::super::outline::Scan;

@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 
 use dicom_core::Tag;
 
-use super::super::super::warnings::VolumeField;
+use super::super::super::offer::VolumeField;
 use super::{SAME, Slice, UNEVEN, same_pixels, tags};
 
 /// Fields whose values tell volumes apart, the plainest first.
@@ -83,7 +83,7 @@ pub(super) fn split<'f, 'a>(mut slices: Vec<Slice<'f, 'a>>) -> Vec<Volume<'f, 'a
     slices.dedup_by(|a, b| is_same_file(a, b));
     // Without those that are there twice under another name; where that is all, nothing is to be taken apart for them.
     let mut single = slices.clone();
-    single.dedup_by(|next, kept| is_twin(next, kept) && has_same_fields(next, kept));
+    single.dedup_by(|next, kept| has_same_fields(next, kept) && is_twin(next, kept));
     let only_twins = deepest_place(&single) == 1;
     let mut found = if only_twins { None } else { best(&slices, DEEPEST) };
     if found.is_none() {
