@@ -102,10 +102,19 @@ struct Report<'a> {
     /// Of a mask, the labels but 0.
     labels: Vec<NamedLabel<'a>>,
     /// All volumes of the files where they may hold several, and which of them this is, from 1.
-    #[serde(skip_serializing_if = "<[Offer]>::is_empty")]
-    volumes: &'a [Offer],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    volumes: Vec<Choice<'a>>,
     volume: usize,
     warnings: Vec<String>,
+}
+
+/// One of several volumes: how many slices it has, and what tells it from the others.
+#[derive(Serialize)]
+struct Choice<'a> {
+    series: usize,
+    slices: usize,
+    by: Option<String>,
+    value: &'a str,
 }
 
 /// A label with its name, if the file has one.
@@ -150,6 +159,15 @@ impl Opened {
         &self.warnings
     }
 
+    fn choices(&self) -> impl Iterator<Item = Choice<'_>> {
+        self.offers.iter().map(|Offer { series, slices, by, value }| Choice {
+            series: series + 1,
+            slices: *slices,
+            by: by.map(|by| by.to_string()),
+            value,
+        })
+    }
+
     fn labels(&self) -> impl Iterator<Item = NamedLabel<'_>> {
         self.survey.labels.iter().map(|&label| {
             let named = self.names.iter().find(|(value, name)| *value == label.value && !name.is_empty());
@@ -171,7 +189,7 @@ impl Opened {
             range: self.survey.range,
             is_ct: self.is_ct,
             labels: self.labels().collect(),
-            volumes: &self.offers,
+            volumes: self.choices().collect(),
             volume: self.taken + 1,
             warnings: in_english(&self.warnings),
         })?)

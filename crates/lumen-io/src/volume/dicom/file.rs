@@ -105,7 +105,7 @@ impl<'a> File<'a> {
             [] if tags::OWN.contains(&tag) => self.own.push(value),
             [tags::SHARED_GROUPS, group] if tags::GROUPED.contains(&(group, tag)) => self.shared.push(value),
             [tags::FRAME_GROUPS, group] if tags::GROUPED.contains(&(group, tag)) => {
-                item_of(&mut self.each, item).push(value)
+                item_of(&mut self.each, item).push(value);
             }
             [tags::SEGMENTS] if tags::OF_SEGMENT.contains(&tag) => item_of(&mut self.segments, item).push(value),
             _ => {}
