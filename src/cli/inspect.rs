@@ -46,9 +46,9 @@ impl Inspect {
     pub(super) fn run(&self) -> Result<()> {
         if !self.scan.is_chosen()
             && !self.file.starts_with("sample:")
-            && let Some(opened) = scan::open(std::slice::from_ref(&self.file))?
+            && let Some(opened) = scan::open(std::slice::from_ref(&self.file), &self.scan)?
         {
-            if self.scan.is_any() {
+            if self.scan.has_box() {
                 return Err(misuse(
                     "--box says where the surface is looked for: say with --threshold or --label what it is of",
                 ));

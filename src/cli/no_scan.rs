@@ -26,7 +26,7 @@ pub(super) fn refused(error: ReadError) -> Error {
 pub(super) enum Opened {}
 
 /// No file is a volume, and a folder could be nothing else.
-pub(super) fn open(names: &[String]) -> Result<Option<Opened>> {
+pub(super) fn open(names: &[String], _: &ScanOptions) -> Result<Option<Opened>> {
     match names.iter().find(|name| Path::new(name).is_dir()) {
         Some(folder) => bail!("{folder}: {MISSING}"),
         None => Ok(None),

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::rows::row;
 use super::scan_options::ScanOptions;
 use crate::io::volume::{self, Part};
-use crate::io::{Axes, Imported, ReadError, Warning, import_mesh, in_english};
+use crate::io::{Axes, Imported, Offer, ReadError, Warning, import_mesh, in_english};
 use crate::volume::{Grid, Label, PRESETS, Selection, Survey, surface, survey};
 
 /// What is said of a folder without surfaces: it may be a scan.
@@ -33,6 +33,9 @@ pub(super) struct Opened {
     axes: Axes,
     is_ct: bool,
     warnings: Vec<Warning>,
+    offers: Vec<Offer>,
+    taken: usize,
+    names: Vec<(i64, String)>,
 }
 
 /// What is in a volume. The field names are the keys of the JSON that `lumen inspect` prints.
@@ -52,24 +55,47 @@ struct Report<'a> {
     range: [f64; 2],
     is_ct: bool,
     /// Of a mask, the labels but 0.
-    labels: &'a [Label],
+    labels: Vec<NamedLabel<'a>>,
+    /// All volumes of the files where they may hold several, and which of them this is, from 1.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    volumes: Vec<Choice<'a>>,
+    volume: usize,
     warnings: Vec<String>,
 }
 
+/// One of several volumes: how many slices it has, and what tells it from the others.
+#[derive(Serialize)]
+struct Choice<'a> {
+    series: usize,
+    slices: usize,
+    by: Option<String>,
+    value: &'a str,
+}
+
+/// A label with its name, if the file has one.
+#[derive(Serialize)]
+struct NamedLabel<'a> {
+    #[serde(flatten)]
+    label: Label,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<&'a str>,
+}
+
 /// Opens the volume in the files or the folder of those names; `None` where the only one is a file that is none.
-pub(super) fn open(names: &[String]) -> Result<Option<Opened>> {
+pub(super) fn open(names: &[String], options: &ScanOptions) -> Result<Option<Opened>> {
     let paths: Vec<PathBuf> = names.iter().map(PathBuf::from).collect();
     let Some(files) = volume::gather(&paths)? else { return Ok(None) };
     if files.is_empty() {
         bail!("{} holds no files", names.join(", "));
     }
     let parts: Vec<Part> = files.iter().map(|(name, bytes)| Part { name, bytes }).collect();
-    let scan = volume::read(&parts).with_context(|| names[0].clone())?;
+    let scan = volume::read_volume(&parts, options.volume.map(|number| number as usize - 1))
+        .with_context(|| names[0].clone())?;
     drop(files);
-    let volume::Scan { grid, format, axes, is_ct, warnings } = scan;
+    let volume::Scan { grid, format, axes, is_ct, warnings, offers, taken, names } = scan;
     let grid = Arc::new(grid);
     let survey = survey(&grid);
-    Ok(Some(Opened { grid, survey, format, axes, is_ct, warnings }))
+    Ok(Some(Opened { grid, survey, format, axes, is_ct, warnings, offers, taken, names }))
 }
 
 impl Opened {
@@ -88,6 +114,22 @@ impl Opened {
         &self.warnings
     }
 
+    fn choices(&self) -> impl Iterator<Item = Choice<'_>> {
+        self.offers.iter().map(|Offer { series, slices, by, value }| Choice {
+            series: series + 1,
+            slices: *slices,
+            by: by.map(|by| by.to_string()),
+            value,
+        })
+    }
+
+    fn labels(&self) -> impl Iterator<Item = NamedLabel<'_>> {
+        self.survey.labels.iter().map(|&label| {
+            let named = self.names.iter().find(|(value, name)| *value == label.value && !name.is_empty());
+            NamedLabel { label, name: named.map(|(_, name)| name.as_str()) }
+        })
+    }
+
     /// What is in it, as JSON.
     pub(super) fn json(&self) -> Result<String> {
         let geometry = self.grid.geometry();
@@ -101,7 +143,9 @@ impl Opened {
             sample_type: self.grid.samples().sample_type().name(),
             range: self.survey.range,
             is_ct: self.is_ct,
-            labels: &self.survey.labels,
+            labels: self.labels().collect(),
+            volumes: self.choices().collect(),
+            volume: self.taken + 1,
             warnings: in_english(&self.warnings),
         })?)
     }
@@ -111,6 +155,13 @@ impl Opened {
         let geometry = self.grid.geometry();
         let list = |values: [f64; 3]| values.map(|value| format!("{value:.4}")).join(", ");
         let [i, j, k] = geometry.size;
+        for (at, Offer { slices, by, value, series }) in
+            self.offers.iter().enumerate().filter(|_| self.offers.len() > 1)
+        {
+            let what = by.map_or_else(|| format!("series {}", series + 1), |by| format!("{by} {value}"));
+            let taken = if at == self.taken { ", opened" } else { "" };
+            row(&format!("volume {}", at + 1), format!("{slices} slices, {what}{taken}"));
+        }
         row("format", self.format);
         row("dimensions", format!("{i} x {j} x {k} voxels"));
         row("spacing", format!("{} mm", geometry.spacing.to_array().map(|mm| format!("{mm:.4}")).join(" x ")));
@@ -124,7 +175,10 @@ impl Opened {
         row("type", self.grid.samples().sample_type().name());
         row("range", format!("{low} to {high}{}", if self.is_ct { " HU" } else { "" }));
         if self.survey.is_mask() {
-            let labels = self.survey.labels.iter().map(|label| format!("{} ({} voxels)", label.value, label.points));
+            let labels = self.labels().map(|NamedLabel { label: Label { value, points }, name }| match name {
+                Some(name) => format!("{value} {name} ({points} voxels)"),
+                None => format!("{value} ({points} voxels)"),
+            });
             row("labels", labels.collect::<Vec<_>>().join(", "));
         } else if self.is_ct || self.survey.has_air() {
             for preset in PRESETS {

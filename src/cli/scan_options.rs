@@ -15,6 +15,9 @@ pub(super) struct ScanOptions {
     /// Of a mask: make the surface of this label; without it, of all that is not 0
     #[arg(long, value_name = "N")]
     pub(super) label: Option<i64>,
+    /// Of files that hold several volumes: this one, from 1; without it, the one of most slices
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) volume: Option<u32>,
     /// Look only at these voxels: first and last column, row and slice, from 0
     #[arg(long = "box", value_name = "I0,I1,J0,J1,K0,K1", value_parser = region)]
     pub(super) region: Option<Region>,
@@ -33,7 +36,12 @@ fn region(text: &str) -> Result<Region, String> {
 impl ScanOptions {
     /// Whether anything is asked for that only a volume has.
     pub(super) fn is_any(&self) -> bool {
-        self.threshold.is_some() || self.label.is_some() || self.region.is_some()
+        self.threshold.is_some() || self.label.is_some() || self.region.is_some() || self.volume.is_some()
+    }
+
+    /// Whether a part of the volume is asked for.
+    pub(super) fn has_box(&self) -> bool {
+        self.region.is_some()
     }
 
     /// Whether they say what the surface is of.
@@ -44,7 +52,9 @@ impl ScanOptions {
     /// Refuses where these options are given for what is no volume.
     pub(super) fn refuse(&self, name: &str) -> Result<()> {
         if self.is_any() {
-            return Err(misuse(format!("{name} is a surface: --threshold, --label and --box are for scans and masks")));
+            return Err(misuse(format!(
+                "{name} is a surface: --threshold, --label, --volume and --box are for scans and masks"
+            )));
         }
         Ok(())
     }

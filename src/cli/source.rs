@@ -78,7 +78,7 @@ fn open(name: &str, unit: Option<UnitOption>, options: &ScanOptions) -> Result<(
         let made: Sample = sample.parse()?;
         return Ok((self::sample(made, made.default_triangles())?, None));
     }
-    match scan::open(&[name.to_owned()])? {
+    match scan::open(&[name.to_owned()], options)? {
         Some(_) if unit.and_then(UnitOption::given).is_some() => {
             bail!("a scan is in millimetres: --unit makes no sense here")
         }

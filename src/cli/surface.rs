@@ -29,7 +29,7 @@ impl Surface {
         scan::check()?;
         let format = output_format(&self.output)?;
         places::check(self.files.iter().map(Path::new), [("the surface".to_owned(), &*self.output)])?;
-        let Some(opened) = scan::open(&self.files)? else {
+        let Some(opened) = scan::open(&self.files, &self.scan)? else {
             bail!("{} is not a scan or a mask", self.files[0]);
         };
         let Imported { mesh, report, .. } = opened.surface(&self.scan)?;

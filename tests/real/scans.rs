@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use libtest_mimic::{Failed, Trial};
-use lumen::io::volume::{self, Part};
+use lumen::io::volume::{self, Part, Scan};
 use lumen::io::{ImportOptions, Imported, import_mesh, read};
 use lumen::mesh::Vec3;
 use lumen::volume::{Grid, Label, Selection, surface, survey};
@@ -28,7 +28,7 @@ pub(crate) fn trials(data: &Path) -> Vec<Trial> {
         })
     };
     let lungs = data.to_owned();
-    let facts = data.to_owned();
+    let (facts, reports) = (data.to_owned(), data.to_owned());
     vec![
         aorta("real/vmtk_aorta_mra_iso600.vtp", 600.0, 231_150),
         aorta("real/vmtk_aorta_mra_iso800.stl", 800.0, 90_504),
@@ -41,6 +41,7 @@ pub(crate) fn trials(data: &Path) -> Vec<Trial> {
             same_surface(&grid, Selection::AnyLabel, &vtk, origin, 395_004)
         }),
         Trial::test("scans: facts of both volumes", move || facts_of(&facts)),
+        Trial::test("scans: small inputs of public reports", move || public(&reports)),
     ]
 }
 
@@ -58,6 +59,48 @@ fn facts_of(data: &Path) -> Result<(), Failed> {
     assert_eq!((geometry.size, geometry.spacing.to_array()), ([512, 512, 295], [0.64453125, 0.64453125, 1.0]));
     let found = survey(&lungs);
     assert_eq!((found.range, &found.labels[..]), ([0.0, 1.0], &[Label { value: 1, points: 264_804 }][..]));
+    Ok(())
+}
+
+/// What INDEX.md of `public` says of each: the surface at 150 has 4,442.4 mm3 between -46 and -34 mm along x, or so many voxels
+/// have the label.
+fn public(data: &Path) -> Result<(), Failed> {
+    let folder = data.join("public");
+    if !folder.is_dir() {
+        return Ok(());
+    }
+    let scan = |name: &str| -> Result<Scan, Failed> {
+        let files = volume::gather(&[folder.join(name)])?.ok_or("no volume")?;
+        let parts: Vec<Part> = files.iter().map(|(name, bytes)| Part { name, bytes }).collect();
+        Ok(volume::read(&parts)?)
+    };
+    for name in [
+        "dcm_enh_perframe_slope",
+        "dcm_enh_philips",
+        "dcm_nogrouplen",
+        "dcm_nopreamble",
+        "dcm_temporal_random_instance",
+        "mha_4d1.mha",
+        "nii_sform_zero.nii",
+        "vti_cell.vti",
+    ] {
+        let mesh = surface(&Arc::new(scan(name)?.grid), Selection::Threshold(150.0), None)?;
+        let report = import_mesh(mesh, name).report;
+        let [low, high] = [report.bounds_mm.min[0], report.bounds_mm.max[0]];
+        assert!(
+            report.volume_mm3.is_some_and(|volume| (volume - 4442.376).abs() < 0.01),
+            "{name}: {:?}",
+            report.volume_mm3
+        );
+        assert!((low + 46.0).abs() < 0.5 && (high + 34.0).abs() < 0.5, "{name}: {low} to {high}");
+    }
+    for (name, points, label) in
+        [("dcm_seg", 2212, ""), ("nii_label_slope.nii", 2196, ""), ("seg_4d_layers.seg.nrrd", 2196, "aorta")]
+    {
+        let scan = scan(name)?;
+        assert_eq!(survey(&scan.grid).labels, [Label { value: 1, points }], "{name}");
+        assert_eq!(scan.names.iter().map(|(_, name)| name.as_str()).collect::<String>(), label, "{name}");
+    }
     Ok(())
 }
 

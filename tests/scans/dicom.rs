@@ -1,10 +1,10 @@
 //! Series of DICOM: every packing, any order, and what is said of series that are mixed or have gaps.
 
-use lumen::io::in_english;
-use lumen::io::volume::ScanError;
+use lumen::io::volume::{Part, Scan, ScanError, read_volume};
+use lumen::io::{VolumeField, in_english};
 
 use crate::jpeg::{flat, lossless};
-use crate::samples::{ORIGIN, SIZE, STEPS, assert_is_it, value};
+use crate::samples::{ORIGIN, SIZE, STEPS, assert_is_it, points, value};
 use crate::{Files, open};
 
 const IMPLICIT: &str = "1.2.840.10008.1.2";
@@ -12,6 +12,7 @@ const EXPLICIT: &str = "1.2.840.10008.1.2.1";
 const BIG: &str = "1.2.840.10008.1.2.2";
 const RLE: &str = "1.2.840.10008.1.2.5";
 const BASELINE: &str = "1.2.840.10008.1.2.4.50";
+const JPEG_2000: &str = "1.2.840.10008.1.2.4.90";
 const LOSSLESS: &str = "1.2.840.10008.1.2.4.70";
 
 /// The name that no reader may ever repeat.
@@ -84,6 +85,19 @@ impl File {
     pub(crate) fn with(mut self, group: u16, number: u16, bytes: Vec<u8>) -> Self {
         let element = self.elements.iter_mut().find(|element| (element.0, element.1) == (group, number)).unwrap();
         element.3 = bytes;
+        self
+    }
+
+    /// The same with an element more.
+    fn also(mut self, group: u16, number: u16, kind: &'static str, bytes: Vec<u8>) -> Self {
+        let at = self.elements.iter().position(|element| (element.0, element.1) > (group, number)).unwrap();
+        self.elements.insert(at, (group, number, kind, bytes));
+        self
+    }
+
+    /// The same without an element.
+    fn without(mut self, group: u16, number: u16) -> Self {
+        self.elements.retain(|element| (element.0, element.1) != (group, number));
         self
     }
 
@@ -180,7 +194,26 @@ fn series(syntax: &'static str) -> Files {
 pub(crate) fn all() -> Vec<(&'static str, Files)> {
     let ways = [("implicit", IMPLICIT), ("explicit", EXPLICIT), ("big-endian", BIG), ("run lengths", RLE)];
     let ways = ways.into_iter().chain([("lossless JPEG", LOSSLESS)]);
-    ways.map(|(what, syntax)| (what, series(syntax))).collect()
+    let mut all: Vec<_> = ways.map(|(what, syntax)| (what, series(syntax))).collect();
+    // The length of the file's own elements is left out or wrong, or they are not there at all.
+    let changed = |syntax, change: fn(&mut Vec<u8>)| {
+        let mut files = series(syntax);
+        files.iter_mut().for_each(|(_, bytes)| change(bytes));
+        files
+    };
+    all.push(("without a length", changed(EXPLICIT, |bytes| drop(bytes.drain(132..144)))));
+    all.push(("with a wrong length", changed(EXPLICIT, |bytes| bytes[140..144].copy_from_slice(&[5, 1, 0, 0]))));
+    for syntax in [EXPLICIT, IMPLICIT] {
+        let own = 144 + element(0x0002, 0x0010, "UI", &padded(syntax.as_bytes().to_vec()), EXPLICIT).len();
+        let mut files = series(syntax);
+        files.iter_mut().for_each(|(_, bytes)| drop(bytes.drain(..own)));
+        all.push(("without what it says of itself", files));
+    }
+    let named = format!("{IMPLICIT}\0\0\0");
+    let mut files = series(EXPLICIT);
+    files.iter_mut().for_each(|(_, bytes)| bytes[152..172].copy_from_slice(&named.as_bytes()[..20]));
+    all.push(("with the name of another way to write elements", files));
+    all
 }
 
 #[test]
@@ -227,6 +260,44 @@ fn baseline_pictures_are_read() {
     let scan = open(&slices.collect::<Vec<_>>()).unwrap();
     assert_eq!(scan.grid.geometry().size, [24, 16, 2]);
     assert_eq!([0, 1].map(|k| scan.grid.value([23, 15, k])), [0.5 * 200.0 - 1000.0, 0.5 * 201.0 - 1000.0]);
+}
+
+/// A ramp of `8 i + j` in 32 x 32 pixels, and the same less 1000 in signed numbers, packed by OpenJPEG 2.5.
+const RAMPS: [&str; 2] = [
+    "ff4fff510029000000000020000000200000000000000000000000200000002000000000000000000001080101ff52000c00000001000504040001\
+     ff5c00134048505058505058505058505058505058ff640025000143726561746564206279204f70656e4a5045472076657273696f6e20322e352e\
+     32ff90000a0000000000570001ff93cfc00805a7c7e00503e704045f043fc3ed0380f901800d02050b3d7fc1f502c03e10c0221a085d8f037fbfc0\
+     f9c3c01d0c36a199ae63a35f3da633c07c816004605fa7c788b79dac29ffd9",
+    "ff4fff5100290000000000200000002000000000000000000000002000000020000000000000000000018a0101ff52000c00000001000504040001\
+     ff5c00134058606068606068606068606068606068ff640025000143726561746564206279204f70656e4a5045472076657273696f6e20322e352e\
+     32ff90000a0000000000590001ff93cfd8080969c1f801403e7040045f043fc0fb40e00f90180d02050b3d7fc07d40b003e10c221a085d8f037fbf\
+     c03e70f001d0c036a199ae63a35f3da633c01f205800465fa7c788b79dac29ffd9",
+];
+
+fn ramp(signed: usize, k: usize) -> File {
+    let byte = |at: usize| u8::from_str_radix(&RAMPS[signed][at..at + 2], 16).unwrap();
+    let picture = (0..RAMPS[signed].len()).step_by(2).map(byte).collect();
+    let mut slice =
+        File::slice(JPEG_2000, k).with(0x0028, 0x0103, short(signed as u16)).with(0x0028, 0x0101, short(16));
+    slice = slice.with(0x0028, 0x0010, short(32)).with(0x0028, 0x0011, short(32));
+    slice.fragments = Some(vec![Vec::new(), padded(picture)]);
+    slice
+}
+
+#[test]
+fn jpeg_2000_is_read() {
+    for (signed, less) in [0.0, 1000.0].into_iter().enumerate() {
+        let scan = open(&[0, 1].map(|k| (NAMES[k], ramp(signed, k).bytes()))).unwrap();
+        for (i, j) in [(0, 0), (31, 0), (0, 31), (17, 9)] {
+            assert_eq!(scan.grid.value([i, j, 1]), 0.5 * ((8 * i + j) as f64 - less) - 1000.0, "{signed}");
+        }
+        let cut = |k: usize| {
+            let mut slice = ramp(signed, k);
+            slice.fragments.as_mut().unwrap()[1].truncate(60);
+            (NAMES[k], slice.bytes())
+        };
+        assert!(open(&[0, 1].map(cut)).is_err());
+    }
 }
 
 #[test]
@@ -280,7 +351,7 @@ fn the_series_of_most_slices_is_taken_and_the_rest_told_by_number() {
         [
             "The files hold 3 series: the one with most slices, 5, is taken, and 2 of 2 others are left out.",
             "1 file holds no slice in shades of grey and is left out.",
-            "1 slice lies at the place of another: of each place the first is taken.",
+            "1 slice is there twice: the same place and the same pixels; one is taken.",
         ]
     );
 }
@@ -309,6 +380,287 @@ fn files_that_cannot_be_read_are_left_out_and_counted() {
         "{several:?}"
     );
     assert!(open(&[("x", cut)]).is_err(), "nothing is left");
+}
+
+/// Two volumes of one series, the second ten higher: `change` makes slice `k` of each.
+fn two(change: impl Fn(usize, usize, File) -> File) -> Files {
+    let slices = [2, 0, 3, 1].into_iter().flat_map(|k| [(1, k), (0, k)]);
+    slices.map(|(volume, k)| ("a", change(volume, k, shifted(volume, k)).bytes())).collect()
+}
+
+/// Slice `k`, with values higher by ten for each volume before it, and a number that says nothing.
+fn shifted(volume: usize, k: usize) -> File {
+    let slice =
+        File::slice(EXPLICIT, k).with(0x0020, 0x0013, text(["1", "8", "4", "7", "2", "3", "6", "5"][4 * volume + k]));
+    let pixels = slice.elements.last().unwrap().3.as_chunks::<2>().0.iter();
+    let pixels = pixels.flat_map(|&pixel| (u16::from_le_bytes(pixel) + 20 * volume as u16).to_le_bytes()).collect();
+    slice.with(0x7FE0, 0x0010, pixels)
+}
+
+/// The place of slice `k`, farther up by so many mm.
+fn place(k: usize, up: f64) -> Vec<u8> {
+    text(&format!("-10\\20\\{}", 300.0 + 2.0 * k as f64 + up))
+}
+
+fn open_volume(files: &Files, choice: Option<usize>) -> Result<Scan, ScanError> {
+    let parts: Vec<Part> = files.iter().map(|(name, bytes)| Part { name, bytes }).collect();
+    read_volume(&parts, choice)
+}
+
+/// How each is told apart, and by what: the two volumes are known, as they were put together.
+#[test]
+fn two_volumes_of_a_series_are_told_apart_and_never_mixed() {
+    let moment = |volume: usize, k: usize| text(&format!("1200{:02}.{}", 20 * volume + k, 9 - k));
+    let ways: [(VolumeField, Files); 11] = [
+        (VolumeField::Time, two(|volume, _, file| file.also(0x0020, 0x0100, "IS", text(&(volume + 1).to_string())))),
+        (
+            VolumeField::Acquisition,
+            two(|volume, _, file| file.also(0x0020, 0x0012, "IS", text(&(volume + 3).to_string()))),
+        ),
+        (VolumeField::Echo, two(|volume, _, file| file.also(0x0018, 0x0081, "DS", text(["2.5", "12"][volume])))),
+        (
+            VolumeField::ImageType,
+            two(|volume, _, file| file.also(0x0008, 0x0008, "CS", text(["A\\B\\M", "A\\B\\P"][volume]))),
+        ),
+        // The times of a heart are never quite the same.
+        (
+            VolumeField::Trigger,
+            two(|volume, k, file| {
+                file.also(0x0018, 0x1060, "DS", text(&format!("{}", 400 * volume + [3, 1, 0, 2][k])))
+            }),
+        ),
+        (VolumeField::Moment, two(|volume, k, file| file.also(0x0008, 0x0033, "TM", moment(volume, k)))),
+        (VolumeField::Order, two(|volume, k, file| file.with(0x0020, 0x0013, text(&(4 * volume + k).to_string())))),
+        (VolumeField::Order, two(|volume, k, file| file.with(0x0020, 0x0013, text(&(volume + 2 * k).to_string())))),
+        // Beside each other.
+        (
+            VolumeField::Acquisition,
+            two(|volume, k, file| {
+                file.also(0x0020, 0x0012, "IS", text(&volume.to_string())).with(
+                    0x0020,
+                    0x0032,
+                    place(k, 0.7 * volume as f64),
+                )
+            }),
+        ),
+        (
+            VolumeField::Moment,
+            two(|volume, k, file| {
+                let file = file.also(0x0008, 0x0032, "TM", moment(volume, k));
+                file.with(0x0020, 0x0032, place(k, 0.7 * volume as f64))
+            }),
+        ),
+        (VolumeField::Place, {
+            let more = |k, up| ("a", File::slice(EXPLICIT, k % 4).with(0x0020, 0x0032, place(k, up)).bytes());
+            (0..4).flat_map(|k| [more(k, 0.0), more(k, 0.7)]).collect()
+        }),
+    ];
+    for (number, (field, files)) in ways.iter().enumerate() {
+        let scan = open_volume(files, None).unwrap_or_else(|error| panic!("{number}, {field}: {error}"));
+        assert_is_it(&scan, &format!("{number}, {field}"));
+        let told: Vec<_> = scan.offers.iter().map(|offer| (offer.by, offer.slices)).collect();
+        assert_eq!((told, scan.taken), (vec![(Some(*field), 4); 2], 0), "{number}");
+        let said = in_english(&scan.warnings);
+        assert!(
+            said.len() == 1 && said[0].contains(&format!("2 volumes of one series, told apart by {field}")),
+            "{said:?}"
+        );
+        let second = open_volume(files, Some(1)).unwrap();
+        assert!(second.warnings.is_empty(), "{:?}", second.warnings);
+        if *field != VolumeField::Place {
+            assert!(
+                points().all(|point| second.grid.value(point) == f64::from(value(point)) + 10.0),
+                "{number}, {field}"
+            );
+        }
+        assert_eq!(open_volume(files, Some(2)), Err(ScanError::NoSuchVolume { number: 3, count: 2 }));
+    }
+    let mixed = open_volume(&two(|_, _, file| file), None).unwrap_err();
+    assert_eq!(mixed, ScanError::Mixed { places: 4 });
+}
+
+#[test]
+fn volumes_of_two_fields_are_told_apart() {
+    let slices = (0..16).map(|n| {
+        let file = shifted(0, n % 4).with(0x0020, 0x0013, text("1"));
+        let (echo, time) = (n / 4 % 2, n / 8);
+        let file = file.also(0x0018, 0x0086, "IS", text(&echo.to_string())).also(
+            0x0020,
+            0x0100,
+            "IS",
+            text(&time.to_string()),
+        );
+        // Of each another value, so that no two are the same slice.
+        ("a", file.with(0x0028, 0x1052, text(&(echo + 2 * time).to_string())).bytes())
+    });
+    let scan = open_volume(&slices.collect(), Some(2)).unwrap();
+    let values: Vec<_> = scan.offers.iter().map(|offer| offer.value.as_str()).collect();
+    assert_eq!(values, ["0, 0", "0, 1", "1, 0", "1, 1"]);
+    assert!(points().all(|point| scan.grid.value(point) == f64::from(value(point)) + 1002.0));
+}
+
+/// Times and acquisitions that differ from slice to slice, or from every other one to the next, of one volume.
+#[test]
+fn fields_that_differ_within_a_volume_do_not_take_it_apart() {
+    let one = |change: &dyn Fn(usize, File) -> File| {
+        let files: Files = (0..4).map(|k| ("a", change(k, File::slice(EXPLICIT, k)).bytes())).collect();
+        let scan = open(&files).unwrap();
+        assert_is_it(&scan, "one volume");
+        assert!(scan.warnings.is_empty() && scan.offers.len() == 1, "{:?}", scan.warnings);
+    };
+    one(&|k, file| file.also(0x0008, 0x0033, "TM", text(&format!("12000{k}"))));
+    one(&|k, file| {
+        file.also(0x0020, 0x0012, "IS", text(&k.to_string())).also(0x0008, 0x0032, "TM", text(&format!("12000{k}")))
+    });
+    one(&|k, file| file.also(0x0008, 0x0032, "TM", text(&format!("12000{}", k % 2))));
+    one(&|k, file| file.also(0x0018, 0x1060, "DS", text(&format!("{}", 7 * k))));
+}
+
+/// An item of the groups of frames: what is said of a frame, each in a group of its own.
+fn groups(said: &[(u16, u16, &'static str, u16, u16, &str)]) -> Vec<u8> {
+    let group = |&(group, number, kind, of, in_group, words): &(u16, u16, &'static str, u16, u16, &str)| {
+        let value = if kind == "US" { short(words.parse().unwrap()) } else { text(words) };
+        element(group, number, "SQ", &item(&element(of, in_group, kind, &value, EXPLICIT)), EXPLICIT)
+    };
+    item(&said.iter().flat_map(group).collect::<Vec<_>>())
+}
+
+/// A file of all slices as frames, in an order that is not theirs, without what it says of them itself.
+fn frames(order: &[usize], shared: Vec<u8>, each: Vec<u8>, pixels: Vec<u8>) -> File {
+    let own =
+        [(0x0018, 0x0050), (0x0020, 0x0032), (0x0020, 0x0037), (0x0028, 0x0030), (0x0028, 0x1052), (0x0028, 0x1053)];
+    let file = own.into_iter().fold(File::slice(EXPLICIT, 0), |file, (group, number)| file.without(group, number));
+    file.with(0x7FE0, 0x0010, pixels)
+        .also(0x0028, 0x0008, "IS", text(&order.len().to_string()))
+        .also(0x5200, 0x9229, "SQ", shared)
+        .also(0x5200, 0x9230, "SQ", each)
+}
+
+const ORIENTED: (u16, u16, &str, u16, u16, &str) = (0x0020, 0x9116, "DS", 0x0020, 0x0037, "0.6\\0.8\\0\\-0.8\\0.6\\0");
+const SPACED: (u16, u16, &str, u16, u16, &str) = (0x0028, 0x9110, "DS", 0x0028, 0x0030, "0.75\\0.5");
+
+#[test]
+fn frames_have_a_place_a_slope_and_a_volume_of_their_own() {
+    let order = [2, 0, 3, 1];
+    let stored = |k: usize, slope: i32, intercept: i32| {
+        let of_slice = points().filter(move |point| point[2] == k);
+        of_slice.flat_map(move |point| (((i32::from(value(point)) - intercept) / slope) as i16).to_le_bytes())
+    };
+    let each = order.iter().flat_map(|&k| {
+        let (at, intercept) = (String::from_utf8(place(k, 0.0)).unwrap(), (-1000 - 7 * k as i32).to_string());
+        groups(&[
+            (0x0020, 0x9113, "DS", 0x0020, 0x0032, at.trim()),
+            (0x0028, 0x9145, "DS", 0x0028, 0x1052, intercept.as_str()),
+            // What a maker repeats, in a place of its own.
+            (0x2005, 0x140F, "DS", 0x0020, 0x0032, "1\\2\\3"),
+            (0x2005, 0x140E, "DS", 0x0028, 0x1053, "9"),
+        ])
+    });
+    let pixels = order.iter().flat_map(|&k| stored(k, 1, -1000 - 7 * k as i32)).collect();
+    let file = frames(&order, groups(&[ORIENTED, SPACED]), each.collect(), pixels);
+    let scan = open(&[("a", file.bytes())]).unwrap();
+    assert_is_it(&scan, "frames");
+    assert!(scan.warnings.is_empty(), "{:?}", scan.warnings);
+    // Two times of each.
+    let order = [2, 0, 3, 1, 1, 3, 0, 2];
+    let each = order.iter().enumerate().flat_map(|(n, &k)| {
+        let (at, time) = (String::from_utf8(place(k, 0.0)).unwrap(), (1 + n / 4).to_string());
+        groups(&[
+            (0x0020, 0x9111, "US", 0x0020, 0x9128, time.as_str()),
+            (0x0020, 0x9113, "DS", 0x0020, 0x0032, at.trim()),
+        ])
+    });
+    let pixels = order.iter().enumerate().flat_map(|(n, &k)| stored(k, 1, -1000 - 10 * (n / 4) as i32)).collect();
+    let file = frames(
+        &order,
+        groups(&[ORIENTED, SPACED, (0x0028, 0x9145, "DS", 0x0028, 0x1052, "-1000")]),
+        each.collect(),
+        pixels,
+    );
+    let files = vec![("a", file.bytes())];
+    assert_is_it(&open_volume(&files, None).unwrap(), "the first time");
+    let second = open_volume(&files, Some(1)).unwrap();
+    assert!(points().all(|point| second.grid.value(point) == f64::from(value(point)) + 10.0));
+}
+
+#[test]
+fn pixels_of_32_bits_and_floats_are_read() {
+    let wide = |k: usize, float: bool| {
+        let values = points().filter(move |point| point[2] == k).map(value);
+        let pixels: Vec<u8> = if float {
+            values.flat_map(|value| (f32::from(value) + 0.5).to_le_bytes()).collect()
+        } else {
+            values.flat_map(|value| (100_000 * i32::from(value)).to_le_bytes()).collect()
+        };
+        let file = File::slice(EXPLICIT, k).with(0x0028, 0x0100, short(32)).with(0x0028, 0x0101, short(32));
+        let file = file.with(0x0028, 0x0103, short(1)).with(0x0028, 0x1052, text(if float { "-0.5" } else { "0" }));
+        let file = file.with(0x0028, 0x1053, text(if float { "1" } else { "0.00001" })).with(0x7FE0, 0x0010, pixels);
+        let mut file = file;
+        if float {
+            file.elements.last_mut().unwrap().1 = 0x0008;
+        }
+        ("a", file.bytes())
+    };
+    for float in [false, true] {
+        let scan = open(&(0..4).map(|k| wide(k, float)).collect::<Vec<_>>()).unwrap();
+        assert!(points().all(|point| (scan.grid.value(point) - f64::from(value(point))).abs() < 1e-9), "{float}");
+    }
+}
+
+/// Segments of which each has frames where it is, and none between: their pixels are known, as they are made so.
+#[test]
+fn segmentations_become_labels_with_names_or_volumes_where_they_overlap() {
+    let segmentation = |inside: fn(usize, [usize; 3]) -> bool, kind: &str| {
+        let order = [(2, 1), (0, 1), (0, 2), (3, 2)];
+        let each = order.iter().flat_map(|&(k, segment)| {
+            let (at, segment) = (String::from_utf8(place(k, 0.0)).unwrap(), segment.to_string());
+            groups(&[
+                (0x0020, 0x9113, "DS", 0x0020, 0x0032, at.trim()),
+                (0x0062, 0x000A, "US", 0x0062, 0x000B, segment.as_str()),
+            ])
+        });
+        let pixels = order.iter().flat_map(|&(k, segment)| {
+            points().filter(move |point| point[2] == k).map(move |point| inside(segment, point))
+        });
+        let pixels: Vec<bool> = pixels.collect();
+        let is_binary = kind == "BINARY";
+        let bytes = if is_binary {
+            pixels.chunks(8).map(|eight| eight.iter().enumerate().map(|(n, &bit)| u8::from(bit) << n).sum()).collect()
+        } else {
+            pixels.iter().map(|&inside| if inside { 100 } else { 99 }).collect()
+        };
+        let segments = [("1", "aorta"), ("2", "vein")].map(|(number, name)| {
+            let number = element(0x0062, 0x0004, "US", &short(number.parse().unwrap()), EXPLICIT);
+            item(&[number, element(0x0062, 0x0005, "LO", &text(name), EXPLICIT)].concat())
+        });
+        let bits = short(if is_binary { 1 } else { 8 });
+        let numbers = order.map(|(k, _)| k);
+        let file = frames(&numbers, groups(&[ORIENTED, SPACED]), each.collect(), padded(bytes));
+        let file = file.with(0x0028, 0x0100, bits.clone()).with(0x0028, 0x0101, bits).with(0x0008, 0x0060, text("SEG"));
+        let file = file.also(0x0062, 0x0001, "CS", text(kind)).also(0x0062, 0x000E, "US", short(200));
+        vec![("a", file.also(0x0062, 0x0002, "SQ", segments.concat()).bytes())]
+    };
+    let names = [(1, "aorta".to_owned()), (2, "vein".to_owned())];
+    for kind in ["BINARY", "FRACTIONAL"] {
+        let scan = open(&segmentation(|segment, [i, ..]| if segment == 1 { i < 2 } else { i > 4 }, kind)).unwrap();
+        assert_eq!(scan.grid.geometry().size, SIZE, "{kind}");
+        let label = |[i, _, k]: [usize; 3]| match (i, k) {
+            (0 | 1, 0 | 2) => 1.0,
+            (5, 0 | 3) => 2.0,
+            _ => 0.0,
+        };
+        assert!(points().all(|point| scan.grid.value(point) == label(point)), "{kind}");
+        assert_eq!((&scan.names[..], scan.offers.len()), (&names[..], 1));
+        let files = segmentation(|segment, [i, ..]| if segment == 1 { i < 2 } else { i > 0 }, kind);
+        let second = open_volume(&files, Some(1)).unwrap();
+        let values: Vec<_> = second.offers.iter().map(|offer| (offer.by, offer.value.as_str())).collect();
+        assert_eq!(values, [(Some(VolumeField::Segment), "aorta"), (Some(VolumeField::Segment), "vein")]);
+        assert_eq!(second.grid.geometry().size, SIZE);
+        assert!(
+            points()
+                .all(|[i, j, k]| second.grid.value([i, j, k]) == if i > 0 && (k == 0 || k == 3) { 2.0 } else { 0.0 })
+        );
+    }
 }
 
 #[test]
@@ -343,11 +695,11 @@ fn what_no_volume_can_be_made_of_is_refused() {
         "The DICOM file is broken: a slice has fewer pixels than rows times columns."
     );
     assert_eq!(
-        refused(|file| file.with(0x0028, 0x0100, short(32))),
-        "The DICOM file uses 32 bits a pixel, which Lumen does not read."
+        refused(|file| file.with(0x0028, 0x0100, short(12))),
+        "The DICOM file uses 12 bits a pixel, which Lumen does not read."
     );
     assert_eq!(
-        refused(|file| File { syntax: "1.2.840.10008.1.2.4.90", ..file }),
+        refused(|file| File { syntax: "1.2.840.10008.1.2.4.201", ..file }),
         "The DICOM file uses JPEG 2000 compression, which Lumen does not read."
     );
     let one = open(&series(EXPLICIT)[..1]).unwrap_err().to_string();

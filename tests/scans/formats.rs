@@ -1,11 +1,15 @@
 //! Every way to write a volume is read as the same volume, and what cannot be read is refused in a sentence.
 
-use lumen::io::volume::{Head, Part, Scan, ScanError, begin, data_name, is_volume, read};
+use std::sync::Arc;
+
+use lumen::io::volume::{Head, Part, Scan, ScanError, begin, data_name, is_volume, read, read_volume};
 use lumen::io::{Axes, in_english};
-use lumen::volume::{Label, Selection, VolumeError, survey};
+use lumen::volume::{Label, Selection, VolumeError, surface, survey};
 
 use crate::open;
-use crate::samples::{Nifti, all, assert_is_it, gzip, little, metaimage, nrrd, vti};
+use crate::samples::{
+    Nifti, all, ascii, assert_is_it, big, gzip, little, metaimage, metaimage_of_four, nrrd, points, value, vti,
+};
 
 #[test]
 fn every_way_gives_the_same_volume_in_the_same_place() {
@@ -105,8 +109,14 @@ fn what_cannot_be_read_is_refused_in_a_sentence() {
         "The MetaImage file is cut short: it announces 300 bytes and holds 240."
     );
     assert_eq!(
-        mha("NDims = 3", "NDims = 4"),
+        mha("NDims = 3", "NDims = 2"),
         "The MetaImage file uses other than three dimensions, which Lumen does not read."
+    );
+    assert_eq!(mha("NDims = 3", "NDims = 4"), "The MetaImage file is broken: \"DimSize\" is not 4 numbers.");
+    let two_times = metaimage_of_four("2");
+    assert_eq!(
+        refused("a.mha", [two_times.into_bytes(), little(), little()].concat()),
+        "The MetaImage file uses more than three dimensions, which Lumen does not read."
     );
     assert_eq!(
         mha("MET_SHORT", "MET_WORD"),
@@ -168,6 +178,154 @@ fn a_mask_is_told_from_a_scan_and_its_labels_are_counted() {
     assert_eq!(Selection::choose(&scan, Some(180.0), None), Ok(Selection::Threshold(180.0)));
 }
 
+/// The sample as NIfTI of bytes with a slope and an intercept, and each point's stored number.
+fn scaled(slope: f32, intercept: f32, stored: impl Fn([usize; 3]) -> u8) -> Scan {
+    let mut header = Nifti::first(false, true, b"n+1\0", 352.0);
+    header[70..74].copy_from_slice(&[2, 0, 8, 0]);
+    header[112..116].copy_from_slice(&slope.to_le_bytes());
+    header[116..120].copy_from_slice(&intercept.to_le_bytes());
+    open(&[("a.nii", [header, points().map(stored).collect()].concat())]).unwrap()
+}
+
+/// 30 points of each of two labels, and how a slope leaves them: the labels are known, as the numbers are made of them.
+#[test]
+fn labels_beside_whole_numbers_are_labels() {
+    let slice = |[_, _, k]: [usize; 3]| [0, 1, 2, 0][k];
+    for (slope, intercept, numbers) in [
+        (1.000_000_1, 0.0, [0, 1, 2]),
+        (0.003_921_569, 0.0, [0, 255, 0]),
+        (0.988, 0.0, [0, 1, 2]),
+        (0.038, 0.0, [0, 26, 53]),
+        (-0.01, 2.0, [200, 100, 0]),
+    ] {
+        let scan = scaled(slope, intercept, |point| numbers[slice(point)]);
+        let found = survey(&scan.grid);
+        let expected: Vec<Label> =
+            [1, 2].into_iter().zip([30, 30]).map(|(value, points)| Label { value, points }).collect();
+        let expected = if numbers[2] == numbers[0] && slope > 0.0 { &expected[..1] } else { &expected[..] };
+        assert_eq!(found.labels, expected, "{slope}");
+        let grid = Arc::new(scan.grid);
+        for label in &found.labels {
+            let selection = Selection::choose(&found, None, Some(label.value)).unwrap();
+            assert!(!surface(&grid, selection, None).unwrap().triangles.is_empty(), "{slope}: {label:?}");
+        }
+    }
+    let parts = scaled(0.125, 0.0, |[i, ..]| i as u8);
+    assert!(!survey(&parts.grid).is_mask(), "parts of a whole are a scan");
+}
+
+#[test]
+fn a_volume_of_one_side_is_told_without_a_box() {
+    let scan = scaled(0.5, 0.0, |[i, j, k]| (7 * i + 11 * j + 13 * k) as u8);
+    let all = surface(&Arc::new(scan.grid), Selection::Threshold(-1.0), None).unwrap_err();
+    assert_eq!(all.to_string(), "There is no surface: all of the volume lies on one side.");
+}
+
+/// The quaternion of the sample says the same as its matrix.
+#[test]
+fn a_matrix_that_is_none_gives_way_to_the_quaternion_and_that_is_told_once() {
+    for matrix in [0.0, f32::NAN] {
+        let mut header = Nifti::first(false, false, b"n+1\0", 352.0);
+        header[254] = 1;
+        (280..328).step_by(4).for_each(|at| header[at..at + 4].copy_from_slice(&matrix.to_le_bytes()));
+        let scan = open(&[("a.nii", [header.clone(), little()].concat())]).unwrap();
+        assert_is_it(&scan, "by quaternion");
+        let told = "The matrix (sform) of the NIfTI file is none, though it should be the one to use: its quaternion (qform) is taken.";
+        assert_eq!((scan.axes, in_english(&scan.warnings)), (Axes::Lps, vec![told.to_owned()]));
+        header[252] = 0;
+        let scan = open(&[("a.nii", [header, little()].concat())]).unwrap();
+        assert_eq!((scan.axes, scan.warnings.len()), (Axes::Unknown, 2));
+    }
+}
+
+#[test]
+fn a_matrix_that_contradicts_the_spacings_is_told() {
+    let mut header = Nifti::first(false, true, b"n+1\0", 352.0);
+    header[88..92].copy_from_slice(&0.2f32.to_le_bytes());
+    let scan = open(&[("a.nii", [header, little()].concat())]).unwrap();
+    assert_is_it(&scan, "by matrix");
+    assert_eq!(
+        in_english(&scan.warnings),
+        [
+            "The NIfTI file contradicts itself: by its matrix (sform) voxels are 2.000 mm apart, by its spacings 0.200 mm. The matrix is taken."
+        ]
+    );
+}
+
+#[test]
+fn analyze_is_read_in_axes_that_nobody_knows() {
+    for is_big in [false, true] {
+        let mut header = Nifti::first(is_big, true, b"\0\0\0\0", 16.0)[..348].to_vec();
+        // A slope is none of it.
+        header[112..116].copy_from_slice(&if is_big { 0.5f32.to_be_bytes() } else { 0.5f32.to_le_bytes() });
+        let data = [vec![7; 16], if is_big { big() } else { little() }].concat();
+        let scan = open(&[("a.img", data), ("a.hdr", header)]).unwrap();
+        assert_eq!((scan.format, scan.axes), ("Analyze", Axes::Unknown));
+        assert!(points().all(|point| scan.grid.value(point) == f64::from(value(point))));
+        assert_eq!(scan.grid.geometry().at(1.0, 1.0, 1.0).to_array(), [0.5, 0.75, 2.0]);
+    }
+}
+
+/// As VTK has it: a value of a cell is in its middle.
+#[test]
+fn structured_points_are_read_on_points_and_on_cells() {
+    let numbers = ascii();
+    for (size, origin, on) in [("6 5 4", "-10 20 300", "POINT_DATA"), ("7 6 5", "-10.25 19.625 299", "CELL_DATA")] {
+        let head =
+            format!("DATASET STRUCTURED_POINTS\nDIMENSIONS {size}\nORIGIN {origin}\nSPACING 0.5 0.75 2\n{on} 120\n");
+        let text = format!(
+            "# vtk DataFile Version 3.0\nx\nASCII\n{head}SCALARS ct short 1\nLOOKUP_TABLE default\n{numbers}\n"
+        );
+        let field = format!("# vtk DataFile Version 3.0\nx\nBINARY\n{head}FIELD data 2\nvectors 3 120 float\n");
+        let binary =
+            [field.into_bytes(), vec![0; 1440], b"\nct 1 120 short\n".to_vec(), big(), b"\n".to_vec()].concat();
+        for bytes in [text.into_bytes(), binary] {
+            assert!(is_volume(&bytes));
+            let scan = open(&[("a.vtk", bytes)]).unwrap();
+            assert_eq!((scan.format, scan.axes), ("VTK", Axes::Unknown));
+            assert!(points().all(|point| scan.grid.value(point) == f64::from(value(point))));
+            assert_eq!(scan.grid.geometry().at(1.0, 1.0, 1.0).to_array(), [-9.5, 20.75, 302.0]);
+        }
+    }
+}
+
+/// Labels of two layers, one number of each after another.
+fn layered(second: impl Fn([usize; 3]) -> u8, segments: &str) -> Vec<u8> {
+    let header = nrrd("raw", segments)
+        .replace("type: short", "type: uchar")
+        .replace("dimension: 3", "dimension: 4")
+        .replace("sizes: ", "sizes: 2 ")
+        .replace("directions: ", "directions: none ")
+        .replace("kinds: ", "kinds: list ");
+    let first = |[i, ..]: [usize; 3]| u8::from(i < 2);
+    [header.into_bytes(), points().flat_map(|point| [first(point), second(point)]).collect()].concat()
+}
+
+#[test]
+fn layers_of_a_segmentation_are_one_map_or_a_volume_each() {
+    let names = "Segment0_Name:=aorta: arch\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n\
+        Segment1_Name:=vein\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n\n";
+    let bytes = layered(|[i, ..]| u8::from(i > 4), names);
+    let scan = open(&[("a.nrrd", bytes)]).unwrap();
+    let labels = [(1, 40), (2, 20)].map(|(value, points)| Label { value, points });
+    assert_eq!(survey(&scan.grid).labels, labels);
+    assert_eq!(scan.names, [(1, "aorta: arch".to_owned()), (2, "vein".to_owned())]);
+    let bytes = layered(|[i, ..]| u8::from(i > 0), names);
+    let read = |choice| read_volume(&[Part { name: "a.nrrd", bytes: &bytes }], choice);
+    for (choice, number, points, name) in [(None, 0, 40, "aorta: arch"), (Some(1), 1, 100, "vein")] {
+        let scan = read(choice).unwrap();
+        assert_eq!(survey(&scan.grid).labels, [Label { value: 1, points }]);
+        assert_eq!((scan.names, scan.taken), (vec![(1, name.to_owned())], number));
+        assert_eq!(
+            scan.offers.iter().map(|offer| offer.value.as_str()).collect::<Vec<_>>(),
+            ["1 aorta: arch", "2 vein"]
+        );
+    }
+    assert_eq!(read(Some(2)).unwrap_err(), ScanError::NoSuchVolume { number: 3, count: 2 });
+    let times = layered(|_| 0, "\n");
+    assert!(open(&[("a.nrrd", times)]).unwrap_err().to_string().contains("more than three dimensions"));
+}
+
 /// Reads a volume of which so many bytes of each file are known at first, in pieces of seven; `None` where it has to be read
 /// whole.
 fn in_pieces(files: &[(&str, Vec<u8>)], known: usize) -> Result<Option<Scan>, ScanError> {
@@ -191,7 +349,7 @@ fn a_volume_is_read_in_pieces_as_it_is_whole() {
             streamed += 1;
         }
     }
-    assert_eq!(streamed, 11, "all of NIfTI, NRRD and MetaImage but text");
+    assert_eq!(streamed, 14, "all of NIfTI, NRRD and MetaImage but text");
     // A header that goes on beyond what is known.
     let (_, nrrd) = all().into_iter().find(|(what, _)| *what == "nrrd").unwrap();
     assert!(in_pieces(&nrrd, 100).unwrap_or(None).is_none());

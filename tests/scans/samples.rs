@@ -78,6 +78,16 @@ pub(crate) fn metaimage(extra: &str, data: &str) -> String {
     )
 }
 
+/// The same with a fourth axis of so many entries.
+pub(crate) fn metaimage_of_four(entries: &str) -> String {
+    metaimage("", "LOCAL")
+        .replace("NDims = 3", "NDims = 4")
+        .replace("0.6 0.8 0 -0.8 0.6 0 0 0 1", "0.6 0.8 0 0 -0.8 0.6 0 0 0 0 1 0 0 0 0 1")
+        .replace("-10 20 300", "-10 20 300 0")
+        .replace("0.5 0.75 2", "0.5 0.75 2 1")
+        .replace("6 5 4", &format!("6 5 4 {entries}"))
+}
+
 /// A header of NRRD without its last, empty line.
 pub(crate) fn nrrd(encoding: &str, extra: &str) -> String {
     format!(
@@ -198,7 +208,23 @@ pub(crate) fn all() -> Vec<(&'static str, crate::Files)> {
             let header = metaimage("BinaryDataByteOrderMSB = True\nHeaderSize = -1\n", "folder/a.raw");
             vec![("b/a.raw", [b"before".to_vec(), big()].concat()), ("b/a.mhd", header.into_bytes())]
         }),
+        ("mha of four axes", vec![("a.mha", joined(&metaimage_of_four("1"), &raw))]),
         ("nrrd", vec![("a.nrrd", joined(&nrrd("raw", "\n"), &raw))]),
+        ("nrrd of a list of one", {
+            let header = nrrd("raw", "\n").replace("dimension: 3", "dimension: 4").replace("sizes: ", "sizes: 1 ");
+            let header = header.replace("directions: ", "directions: none ").replace("kinds: ", "kinds: list ");
+            vec![("a.nrrd", joined(&header, &raw))]
+        }),
+        // As ITK writes four axes.
+        ("nrrd of four axes", {
+            let header = nrrd("raw", "\n").replace("dimension: 3", "dimension: 4\nspace dimension: 4");
+            let header = header
+                .replace("sizes: 6 5 4", "sizes: 6 5 4 1")
+                .replace("posterior-superior", "posterior-superior-time");
+            let header = header
+                .replace("(0.3,0.4,0) (-0.6,0.45,0) (0,0,2)", "(0.3,0.4,0,0) (-0.6,0.45,0,0) (0,0,2,0) (0,0,0,1)");
+            vec![("a.nrrd", joined(&header.replace("20,300)", "20,300,0)"), &raw))]
+        }),
         ("nrrd in RAS", {
             let header = nrrd("gzip", "\n")
                 .replace("left-posterior-superior", "RAS")
@@ -221,6 +247,13 @@ pub(crate) fn all() -> Vec<(&'static str, crate::Files)> {
             vec![("a.img", raw.clone()), ("a.hdr", Nifti::first(false, true, b"ni1\0", 0.0)[..348].to_vec())]
         }),
         ("nii of version 2", vec![("a.nii", [Nifti::second(), raw.clone()].concat())]),
+        ("vti of cells", {
+            let text = String::from_utf8(vti("", &format!("format=\"ascii\">{}", ascii()), b"")).unwrap();
+            // The same numbers between one point more along each axis, half a step before them.
+            let text = text.replace("2 7 0 4 0 3", "2 8 0 5 0 4").replace("-10.6 19.2 300", "-10.45 18.775 299");
+            let text = text.replace("<CellData></CellData>", "").replace("PointData", "CellData");
+            vec![("a.vti", text.into_bytes())]
+        }),
         ("vti of text", vec![("a.vti", vti("", &format!("format=\"ascii\">{}", ascii()), b""))]),
     ];
     let length = (raw.len() as u64).to_le_bytes();

@@ -90,20 +90,88 @@ pub(super) fn volume(bytes: &[u8]) -> Option<Volume> {
     if stands(b"n+1\0", 344) || stands(b"ni1\0", 344) || stands(b"n+2\0", 4) || stands(b"ni2\0", 4) {
         return Some(Volume::Nifti);
     }
+    if analyze(bytes).is_some() {
+        return Some(Volume::Nifti);
+    }
     if stands(b"NRRD000", 0) {
         return Some(Volume::Nrrd);
     }
-    if stands(b"DICM", 128) {
+    if behind_preamble(bytes).len() < bytes.len() || data_set(bytes).is_some() {
         return Some(Volume::Dicom);
     }
     let head = text::beginning(bytes);
     let head = &head[..head.len().min(4096)];
     let contains = |word: &[u8]| head.windows(word.len()).any(|part| part == word);
+    if vtk::is_legacy(head) {
+        let words = head.to_ascii_lowercase();
+        return words.windows(17).any(|part| part == b"structured_points").then_some(Volume::Vti);
+    }
     if vtk::is_xml(head) {
         return contains(b"\"ImageData\"").then_some(Volume::Vti);
     }
     let begins = [&b"ObjectType"[..], b"NDims", b"Comment"].iter().any(|word| head.starts_with(word));
     (begins && contains(b"DimSize")).then_some(Volume::MetaImage)
+}
+
+/// Whether bytes are a header of Analyze 7.5, which has no word to know it by, and if so whether it is big-endian: its length,
+/// dimensions, and bits that fit the type of its numbers.
+pub(super) fn analyze(bytes: &[u8]) -> Option<bool> {
+    const LENGTH: usize = 348;
+    let header = bytes.get(..LENGTH)?;
+    let is_big_endian = match header {
+        [0x5C, 1, 0, 0, ..] => false,
+        [0, 0, 1, 0x5C, ..] => true,
+        _ => return None,
+    };
+    let short = |at: usize| {
+        let word = [header[at], header[at + 1]];
+        if is_big_endian { i16::from_be_bytes(word) } else { i16::from_le_bytes(word) }
+    };
+    let axes = short(40);
+    let are_sizes = (1..=7).contains(&axes) && (1..=axes).all(|axis| short(40 + 2 * axis as usize) > 0);
+    let is_type = matches!((short(70), short(72)), (2 | 256, 8) | (4 | 512, 16) | (8 | 16 | 768, 32) | (64, 64));
+    let is_nifti = [&b"n+1\0"[..], b"ni1\0"].contains(&&header[344..]);
+    (are_sizes && is_type && !is_nifti).then_some(is_big_endian)
+}
+
+/// A DICOM file behind its preamble, which some leave out.
+pub(super) fn behind_preamble(bytes: &[u8]) -> &[u8] {
+    match bytes {
+        [b'D', b'I', b'C', b'M', rest @ ..] => rest,
+        _ => bytes.get(128..).and_then(|rest| rest.strip_prefix(b"DICM")).unwrap_or(bytes),
+    }
+}
+
+/// How the elements of a DICOM data set are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum DataSet {
+    Explicit,
+    BigEndian,
+    Implicit,
+}
+
+/// How bytes are written that look as the first two elements of a data set, or of what a file says of itself: one of the
+/// first groups, in order, and as long as such elements are.
+pub(super) fn data_set(bytes: &[u8]) -> Option<DataSet> {
+    let element = |way: DataSet, at: usize| {
+        let &[a, b, c, d, e, f, g, h] = bytes.get(at..)?.first_chunk()?;
+        let short = |two| if way == DataSet::BigEndian { u16::from_be_bytes(two) } else { u16::from_le_bytes(two) };
+        let tag = (short([a, b]), short([c, d]));
+        let is_named = e.is_ascii_uppercase() && f.is_ascii_uppercase();
+        let length = match way {
+            DataSet::Implicit => u32::from_le_bytes([e, f, g, h]),
+            _ if !is_named => return None,
+            // Those whose length takes four bytes are no text, and few of them come first.
+            _ if matches!(&[e, f], b"OB" | b"UN") => u32::from(*bytes.get(at + 8)?) + 4,
+            _ => short([g, h]).into(),
+        };
+        (tag.0 <= 0x20 && length < 1 << 10).then_some((tag, at + 8 + length as usize))
+    };
+    [DataSet::Explicit, DataSet::BigEndian, DataSet::Implicit].into_iter().find(|&way| {
+        let first = element(way, 0);
+        let second = first.and_then(|(_, next)| element(way, next));
+        matches!((first, second), (Some((first, _)), Some((second, _))) if matches!(first.0, 2 | 8) && first < second)
+    })
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ mod import;
 mod memory_budget;
 mod numbers;
 mod obj;
+mod offer;
 mod output;
 mod pace;
 mod parsing;
@@ -39,6 +40,7 @@ pub use error::{Counted, Elements, Feature, Named, ReadError, Unfolded, Unnamed,
 pub use estimate::{Estimate, estimate};
 pub use formats::Format;
 pub use import::{import_made, import_mesh};
+pub use offer::{Offer, VolumeField};
 pub use output::Output;
 pub use places::{LeftOut, left_out};
 pub use reading::{read, read_in_slices};
@@ -68,6 +70,7 @@ pub const MESSAGES: &[&[lumen_message::Signature]] = &[
     UnknownUnit::MESSAGES,
     Unnamed::MESSAGES,
     UnusualSize::MESSAGES,
+    VolumeField::MESSAGES,
     WriteError::MESSAGES,
     problem::DicomProblem::MESSAGES,
     problem::GltfProblem::MESSAGES,

@@ -70,7 +70,7 @@ messages! {
         "scan-vti-wrong" Wrong { name: &'static str } => "\"{name}\" is wrong",
         "scan-vti-no-element" NoElement { name: &'static str } => "it has no element \"{name}\"",
         "scan-vti-no-points" NoPoints => "it does not say how many points there are",
-        "scan-vti-no-array" NoArray => "it has no array of one number a point",
+        "scan-vti-no-array" NoArray => "it has no array of one number for each point or cell",
     }
 }
 

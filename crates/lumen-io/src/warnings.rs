@@ -4,6 +4,7 @@ use lumen_message::{Told, grouped, messages};
 use serde::{Deserialize, Serialize};
 
 use super::Unit;
+use super::offer::VolumeField;
 use super::report::{ImportReport, Skipped};
 use super::size::{Length, UnusualSize};
 
@@ -126,6 +127,12 @@ messages! {
             "{format} does not say which way the patient lies: the axes are unknown.",
         "scan-unknown-unit" UnknownUnit { format: String, unit: String } =>
             "The unit of length of the {format} file, {unit}, is not known: it is taken as mm.",
+        "scan-nifti-no-matrix" NoMatrix =>
+            "The matrix (sform) of the NIfTI file is none, though it should be the one to use: its quaternion (qform) is taken.",
+        "scan-nifti-no-place" NoPlace =>
+            "The matrix (sform) of the NIfTI file is none, and it has no quaternion (qform): its spacings are taken.",
+        "scan-nifti-spacings" Spacings { matrix: f64 [3], stated: f64 [3] } =>
+            "The NIfTI file contradicts itself: by its matrix (sform) voxels are {matrix:.3} mm apart, by its spacings {stated:.3} mm. The matrix is taken.",
         "scan-dicom-unreadable" Unreadable { count: usize, why: Told } => {
             match *count {
                 1 => format!("One slice cannot be read and is left out. {why}"),
@@ -135,8 +142,8 @@ messages! {
         "scan-dicom-same-place" SamePlace { count: usize } =>
             {
                 match count {
-                    1 => "1 slice lies at the place of another: of each place the first is taken.".to_owned(),
-                    _ => format!("{} slices lie at the place of another: of each place the first is taken.", grouped(*count)),
+                    1 => "1 slice is there twice: the same place and the same pixels; one is taken.".to_owned(),
+                    _ => format!("{} slices are there twice: the same place and the same pixels; one of each is taken.", grouped(*count)),
                 }
             },
         "scan-dicom-series" Series { count: usize, taken: usize, slices: usize, others: usize } => {
@@ -147,6 +154,8 @@ messages! {
             let count = grouped(*count);
             format!("The files hold {count} series: the one with most slices, {taken}, is taken, and {slices} of {of} are left out.")
         },
+        "scan-volumes" Volumes { count: usize, by: VolumeField, list: String, taken: String } =>
+            "The files hold {count} volumes of one series, told apart by {by}; each with its number of slices: {list}. Opened is {taken}.",
         "scan-dicom-no-slices" NoSlices { count: usize } =>
             {
                 match count {

@@ -60,6 +60,8 @@ messages! {
         } => "A slice has {points} voxels, of which {limit} can be worked on: set a box around the vessels.",
         /// Nothing but inside, or nothing but outside.
         "scan-one-side" NoSurface => "There is no surface within the box: all of it lies on one side.",
+        /// The same, where there is no box.
+        "scan-all-one-side" NothingThere => "There is no surface: all of the volume lies on one side.",
         /// More than can be worked on.
         "scan-too-many-triangles" TooManyTriangles {
             /// The most that are made.

@@ -4,6 +4,9 @@ use super::error::VolumeError;
 use super::geometry::Geometry;
 use super::samples::Samples;
 
+/// Values so near to a label are of it: one that a slope has rounded lies beside its whole number.
+pub(super) const LABEL_REACH: f64 = 0.25;
+
 /// A scan or a mask. The value of a point is `slope * stored + intercept`, in Hounsfield units for CT.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
@@ -47,6 +50,12 @@ impl Grid {
     /// The stored number that would stand for a value, a fraction where there is none.
     pub fn stored_for(&self, value: f64) -> f64 {
         (value - self.intercept) / self.slope
+    }
+
+    /// The stored numbers, from the least to the largest, that stand for a label.
+    pub(super) fn stored_for_label(&self, label: f64) -> [f64; 2] {
+        let [a, b] = [label - LABEL_REACH, label + LABEL_REACH].map(|value| self.stored_for(value));
+        [a.min(b), a.max(b)]
     }
 
     /// Whether larger stored numbers stand for smaller values.

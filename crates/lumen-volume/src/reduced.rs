@@ -29,7 +29,7 @@ pub async fn reduced_in_slices(grid: &Grid, step: usize, is_mask: bool, yielder:
 /// Adds a slice of the reduced volume.
 fn reduce_slice(grid: &Grid, step: usize, is_mask: bool, slice: usize, samples: &mut Samples) {
     let [nx, ny, nz] = grid.geometry().size;
-    let outside = grid.stored_for(0.0);
+    let [low, high] = grid.stored_for_label(0.0);
     let planes = slice * step..nz.min((slice + 1) * step);
     with_samples!(grid.samples(), values => {
         for j in (0..ny).step_by(step) {
@@ -41,7 +41,7 @@ fn reduce_slice(grid: &Grid, step: usize, is_mask: bool, slice: usize, samples: 
                     values[start..start + step.min(nx - i)].iter().copied()
                 });
                 let chosen = if is_mask {
-                    block.find(|value| value.to_f64() != outside).unwrap_or(first)
+                    block.find(|value| !(low..=high).contains(&value.to_f64())).unwrap_or(first)
                 } else {
                     let is_larger = |a, b| if grid.is_inverted() { a < b } else { a > b };
                     block.fold(first, |a, b| if is_larger(b, a) || a.to_f64().is_nan() { b } else { a })

@@ -146,8 +146,8 @@ pub(super) struct Selected {
 enum Test {
     AtLeast(f64),
     AtMost(f64),
-    Is(f64),
-    IsNot(f64),
+    Within([f64; 2]),
+    Outside([f64; 2]),
 }
 
 impl Selected {
@@ -156,8 +156,8 @@ impl Selected {
         let test = match selection {
             Selection::Threshold(value) if grid.is_inverted() => Test::AtMost(grid.stored_for(value)),
             Selection::Threshold(value) => Test::AtLeast(grid.stored_for(value)),
-            Selection::Label(label) => Test::Is(grid.stored_for(label as f64)),
-            Selection::AnyLabel => Test::IsNot(grid.stored_for(0.0)),
+            Selection::Label(label) => Test::Within(grid.stored_for_label(label as f64)),
+            Selection::AnyLabel => Test::Outside(grid.stored_for_label(0.0)),
         };
         Self { grid, region, test, k: 0 }
     }
@@ -187,8 +187,8 @@ impl Mask for Selected {
             match self.test {
                 Test::AtLeast(bound) => runs_where(values, runs, |value| value >= bound),
                 Test::AtMost(bound) => runs_where(values, runs, |value| value <= bound),
-                Test::Is(label) => runs_where(values, runs, |value| value == label),
-                Test::IsNot(label) => runs_where(values, runs, |value| value != label && !value.is_nan()),
+                Test::Within([low, high]) => runs_where(values, runs, |value| low <= value && value <= high),
+                Test::Outside([low, high]) => runs_where(values, runs, |value| value < low || high < value),
             }
         });
     }

@@ -21,7 +21,7 @@ const MAX_OF_A_SLICE: usize = 1 << 26;
 /// half way for labels. Only what is within `region`, if there is one, is looked at.
 ///
 /// # Errors
-/// As [`region_of`], and [`VolumeError::NoSurface`], [`VolumeError::TooManyTriangles`].
+/// As [`region_of`], and [`VolumeError::NoSurface`], [`VolumeError::NothingThere`], [`VolumeError::TooManyTriangles`].
 pub fn surface(grid: &Arc<Grid>, selection: Selection, region: Option<Region>) -> Result<TriMesh, VolumeError> {
     at_once(surface_in_slices(grid, selection, region_of(grid, region)?, &Yielder::never()))
 }
@@ -45,7 +45,7 @@ pub fn region_of(grid: &Grid, region: Option<Region>) -> Result<Region, VolumeEr
 /// As [`surface`], resting after each layer of cubes; `region` is from [`region_of`].
 ///
 /// # Errors
-/// [`VolumeError::NoSurface`], [`VolumeError::TooManyTriangles`].
+/// [`VolumeError::NoSurface`], [`VolumeError::NothingThere`], [`VolumeError::TooManyTriangles`].
 pub async fn surface_in_slices(
     grid: &Arc<Grid>,
     selection: Selection,
@@ -65,7 +65,11 @@ async fn limited(
     let selected = Selected::new(Arc::clone(grid), selection, region);
     let cubes = MarchingCubes::new(&grid.geometry().cropped(&region), selected);
     let mesh = cubes.surface(limit, yielder).await.ok_or(VolumeError::TooManyTriangles { limit })?;
-    if mesh.triangles.is_empty() { Err(VolumeError::NoSurface) } else { Ok(mesh) }
+    match mesh.triangles.len() {
+        0 if region == Region::all(grid.geometry()) => Err(VolumeError::NothingThere),
+        0 => Err(VolumeError::NoSurface),
+        _ => Ok(mesh),
+    }
 }
 
 #[cfg(test)]
@@ -201,8 +205,11 @@ mod tests {
         let outside = Region { first: [61, 0, 0], last: [70, 9, 9] };
         let refused = surface(grid.clone(), Selection::Threshold(300.0), Some(outside)).unwrap_err();
         assert_eq!(refused.to_string(), "The box holds nothing of the volume, which has 61 x 52 x 43 voxels.");
+        let corner = Region { first: [0; 3], last: [2; 3] };
+        let all_outside = surface(grid.clone(), Selection::Threshold(300.0), Some(corner));
+        assert_eq!(all_outside, Err(VolumeError::NoSurface));
         let all_inside = surface(grid, Selection::Threshold(-32_768.0), None);
-        assert_eq!(all_inside, Err(VolumeError::NoSurface));
+        assert_eq!(all_inside, Err(VolumeError::NothingThere));
     }
 
     #[test]

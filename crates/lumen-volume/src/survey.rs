@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::grid::Grid;
+use super::grid::{Grid, LABEL_REACH};
 use super::samples::{Sample, with_samples};
 use lumen_mesh::task::{Yielder, at_once, blocks};
 
@@ -10,6 +10,8 @@ use lumen_mesh::task::{Yielder, at_once, blocks};
 pub const BINS: usize = 256;
 /// The most labels that a mask has beside 0; what has more values is a scan, as one of 8 bits is.
 const MAX_LABELS: usize = 64;
+/// By so much a label may lie beside its whole number, and by this part of it.
+const BESIDE: f64 = 0.02;
 /// Numbers that are looked at between two looks at the clock.
 const STRETCH: usize = 1 << 18;
 
@@ -20,7 +22,7 @@ pub struct Survey {
     pub range: [f64; 2],
     /// How many values lie in each of [`BINS`] equal parts of the range.
     pub histogram: Vec<u64>,
-    /// The whole numbers from 0 to 65,535 that a mask is made of, ascending, 0 left out; none where it is a scan.
+    /// The whole numbers from 0 to 65,535 that a mask is made of, or lies next to, ascending, 0 left out; none where it is a scan.
     pub labels: Vec<Label>,
 }
 
@@ -75,16 +77,30 @@ pub async fn survey_in_slices(grid: &Grid, yielder: &Yielder) -> Survey {
     Survey { range, histogram, labels: labels(grid, &values.unwrap_or_default()) }
 }
 
-/// The labels of a mask in which each of these stored numbers is so often; none where they are those of a scan.
+/// The labels of a mask in which each of these stored numbers is so often; none where they are those of a scan. A slope that was
+/// rounded leaves labels beside their whole numbers: by half of it, where it was made to fit them into few numbers.
 fn labels(grid: &Grid, values: &[(f64, u64)]) -> Vec<Label> {
-    let labels = values.iter().map(|&(stored, points)| (grid.value_of(stored), points));
-    let mut labels: Vec<(f64, u64)> = labels.collect();
-    labels.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let is_label = |value: f64| (0.0..=65_535.0).contains(&value) && libm::trunc(value) == value;
+    let slope = (grid.value_of(1.0) - grid.value_of(0.0)).abs();
+    let beside = if slope < 0.5 { BESIDE.max(0.5 * slope) } else { BESIDE };
+    let mut values: Vec<(f64, u64)> = values.iter().map(|&(stored, points)| (grid.value_of(stored), points)).collect();
+    values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let whole = |value: f64| libm::round(value);
+    let is_label = |value: f64| {
+        let beside = beside.max(BESIDE * value).min(LABEL_REACH);
+        (0.0..=65_535.0).contains(&whole(value)) && (value - whole(value)).abs() <= beside
+    };
+    let is_one = |a: f64, b: f64| whole(a) != whole(b) || b - a <= BESIDE;
     // Without anything around it there is no mask.
-    let is_mask = labels.len() > 1 && labels[0].0 == 0.0 && labels.iter().all(|&(value, _)| is_label(value));
-    let labels = labels.into_iter().filter(|&(value, _)| is_mask && value != 0.0);
-    labels.map(|(value, points)| Label { value: value as i64, points }).collect()
+    let has_both = matches!(&values[..], [(low, _), .., (high, _)] if whole(*low) == 0.0 && whole(*high) > 0.0);
+    let is_mask = has_both
+        && values.iter().all(|&(value, _)| is_label(value))
+        && values.windows(2).all(|two| is_one(two[0].0, two[1].0));
+    let label = |group: &[(f64, u64)]| Label {
+        value: whole(group[0].0) as i64,
+        points: group.iter().map(|(_, points)| points).sum(),
+    };
+    let groups = values.chunk_by(|a, b| whole(a.0) == whole(b.0)).filter(|_| is_mask);
+    groups.map(label).filter(|label| label.value != 0).collect()
 }
 
 /// Widens the range by some stored numbers, and counts them while they are few.

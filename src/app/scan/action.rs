@@ -5,6 +5,8 @@ use crate::volume::{Axis, Region, Selection};
 /// What can be asked of a scan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
+    /// Another volume of its files, by its number.
+    Volume(usize),
     /// What of it is the vessel.
     Select(Selection),
     /// Look only here.

@@ -9,6 +9,7 @@ use crate::app::control::{self, Setting, reads_comma};
 use crate::app::row::{self, number, remark, row, step, warning};
 use crate::app::swipe::Way;
 use crate::engine::scan::ScanWork;
+use crate::io::Offer;
 use crate::language::{Key, decimal, grouped, inner, tell};
 use crate::say;
 use crate::volume::{Axis, PRESETS, Region, Selection};
@@ -21,6 +22,9 @@ const AXES: [(Axis, Key); 3] =
 pub(super) fn show(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     step(ui, 1, &say!("scan-title"), &say!("scan-what"));
     facts(ui, scan);
+    if scan.opened.offers.len() > 1 {
+        volumes(ui, scan, asked);
+    }
     ui.separator();
     if scan.opened.survey.is_mask() {
         labels(ui, scan, asked);
@@ -86,9 +90,37 @@ fn threshold(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     }
 }
 
+fn volumes(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
+    let text = |Offer { series, slices, by, value }: &Offer| {
+        let what = match by {
+            Some(by) => format!("{} {value}", tell(by)),
+            None => say!("scan-volume-series", number = series + 1),
+        };
+        say!("scan-volume-offer", what = what, slices = *slices)
+    };
+    let opened = &scan.opened;
+    row(ui, &say!("scan-volume"), &say!("scan-volume-help"), |ui| {
+        let chosen = opened.offers.get(opened.taken).map_or_else(String::new, text);
+        let list = ComboBox::from_id_salt("volume").selected_text(chosen).show_ui(ui, |ui| {
+            for (number, offer) in opened.offers.iter().enumerate() {
+                if ui.selectable_label(number == opened.taken, text(offer)).clicked() && number != opened.taken {
+                    asked.push(Action::Volume(number));
+                }
+            }
+        });
+        name(&list.response, Role::ComboBox, &say!("scan-volume"));
+    });
+}
+
 fn labels(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     let text = |selection| match selection {
-        Selection::Label(label) => say!("scan-label", label = label.to_string()),
+        Selection::Label(label) => {
+            let named = scan.opened.names.iter().find(|(known, name)| *known == label && !name.is_empty());
+            match named {
+                Some((_, name)) => say!("scan-label-named", label = label.to_string(), name = name),
+                None => say!("scan-label", label = label.to_string()),
+            }
+        }
         Selection::AnyLabel | Selection::Threshold(_) => say!("scan-all-labels"),
     };
     let known = scan.opened.survey.labels.iter().map(|label| Selection::Label(label.value));

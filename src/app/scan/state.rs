@@ -28,6 +28,7 @@ pub struct Scans {
 struct Opening {
     number: u64,
     name: String,
+    files: Vec<NamedFile>,
     /// What is done now, and the part of it that is.
     progress: (ScanWork, f32),
 }
@@ -39,6 +40,8 @@ pub struct OpenScan {
     pub name: String,
     /// What is known of it.
     pub opened: OpenedScan,
+    /// Its files, for another volume of theirs.
+    files: Vec<NamedFile>,
     /// What of it is the vessel.
     pub selection: Selection,
     /// Where it is looked at.
@@ -135,7 +138,6 @@ impl Scans {
 
     /// Reads a scan; the one that is shown stays until it is there.
     pub fn read(&mut self, files: Vec<NamedFile>, link: &mut ScanLink) {
-        self.number += 1;
         // The names of DICOM's files often are those of patients.
         let name = match &files[..] {
             [] => return,
@@ -145,8 +147,15 @@ impl Scans {
                 header.map_or_else(|| say!("scan-name"), |file| stem(&file.name).to_owned())
             }
         };
-        self.opening = Some(Opening { number: self.number, name, progress: (ScanWork::Reading, 0.0) });
-        link.send(ScanCommand::Open { id: self.number, files });
+        self.read_volume(name, files, None, link);
+    }
+
+    /// Reads a volume of some files.
+    fn read_volume(&mut self, name: String, files: Vec<NamedFile>, volume: Option<usize>, link: &mut ScanLink) {
+        self.number += 1;
+        let (number, progress) = (self.number, (ScanWork::Reading, 0.0));
+        self.opening = Some(Opening { number, name, files: files.clone(), progress });
+        link.send(ScanCommand::Open { id: number, files, volume });
     }
 
     /// Does what is asked for.
@@ -161,6 +170,10 @@ impl Scans {
         }
         let Some(open) = &mut self.open else { return self.act_on_kept(action, link) };
         match action {
+            Action::Volume(number) => {
+                let (name, files) = (open.name.clone(), open.files.clone());
+                self.read_volume(name, files, Some(number), link);
+            }
             Action::Select(selection) => open.selection = selection,
             Action::Bound(region) => open.region = region,
             Action::Slice(axis, index) => open.slice = (axis, index),
@@ -217,8 +230,8 @@ impl Scans {
     /// Takes what the engine says.
     pub fn receive(&mut self, event: ScanEvent, link: &mut ScanLink) -> Option<Told> {
         if let ScanEvent::Opened(opened) = event {
-            let Opening { name, .. } = self.opening.take_if(|opening| opening.number == opened.id)?;
-            self.open = Some(Box::new(OpenScan::new(name, *opened)));
+            let Opening { name, files, .. } = self.opening.take_if(|opening| opening.number == opened.id)?;
+            self.open = Some(Box::new(OpenScan::new(name, files, *opened)));
             self.kept = None;
             return None;
         }
@@ -297,11 +310,12 @@ impl Scans {
 }
 
 impl OpenScan {
-    fn new(name: String, opened: OpenedScan) -> Self {
+    fn new(name: String, files: Vec<NamedFile>, opened: OpenedScan) -> Self {
         let last = opened.dimensions.map(|along| along.saturating_sub(1));
         let [low, high] = opened.survey.range;
         let mut open = Self {
             name,
+            files,
             selection: Selection::Threshold((low + high) / 2.0),
             region: Region { first: [0; 3], last },
             slice: (Axis::K, last[2] / 2),

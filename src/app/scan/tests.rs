@@ -49,7 +49,24 @@ fn opened(id: u64, range: [f64; 2], labels: Vec<Label>) -> ScanEvent {
         survey: Survey { range, histogram: vec![1; 256], labels },
         proposed,
         warnings: vec![ScanWarning::Silent { format: "NIfTI".to_owned() }.into()],
+        offers: Vec::new(),
+        taken: 0,
+        names: Vec::new(),
     }))
+}
+
+#[test]
+fn another_volume_of_the_files_is_read_anew_and_the_one_that_is_shown_stays_until_then() {
+    let (mut scans, mut line) = (Scans::default(), Line::default());
+    let files = vec![NamedFile::new("phases.dcm", vec![1, 2, 3])];
+    scans.read(files.clone(), &mut line);
+    assert_eq!(line.sent.pop_back(), Some(ScanCommand::Open { id: 1, files: files.clone(), volume: None }));
+    scans.receive(opened(1, [0.0, 9.0], Vec::new()), &mut line);
+    scans.act(Action::Volume(1), &mut line);
+    assert_eq!(line.sent.pop_back(), Some(ScanCommand::Open { id: 2, files, volume: Some(1) }));
+    assert!(scans.is_open() && scans.opening().is_some_and(|(name, ..)| name == "phases"));
+    scans.receive(opened(2, [0.0, 5.0], Vec::new()), &mut line);
+    assert_eq!(scans.shown().map(|scan| scan.opened.survey.range), Some([0.0, 5.0]));
 }
 
 /// A scan of CT that is open, and its line, after what it asked for first.

@@ -268,8 +268,8 @@ impl Machine for ScanEngine {
     /// Takes a command. Nothing long happens here but a slice's picture, a few milliseconds.
     fn handle(&mut self, command: ScanCommand) {
         match command {
-            ScanCommand::Open { id, files } => {
-                let opening = Opening::new(id, files);
+            ScanCommand::Open { id, files, volume } => {
+                let opening = Opening::new(id, files, volume);
                 if let Some(first) = opening.first_number() {
                     self.shelf.forget_before(first);
                 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::link::Link;
 use super::super::surfaces::surface;
-use crate::io::{Axes, Warning};
+use crate::io::{Axes, Offer, Warning};
 use crate::mesh::TriMesh;
 use crate::transfer::bulk;
 use crate::volume::{Axis, Region, Selection, Survey};
@@ -53,6 +53,8 @@ pub enum ScanCommand {
         id: u64,
         /// The files, in any order.
         files: Vec<NamedFile>,
+        /// Which of their volumes, by its number in [`OpenedScan::offers`]; `None` for the one of most slices.
+        volume: Option<usize>,
     },
     /// Make a surface at reduced resolution.
     Preview {
@@ -131,6 +133,12 @@ pub struct OpenedScan {
     pub proposed: Option<Selection>,
     /// What looks odd.
     pub warnings: Vec<Warning>,
+    /// The volumes of its files, and which of them this is.
+    pub offers: Vec<Offer>,
+    /// The number of this one.
+    pub taken: usize,
+    /// Names of labels.
+    pub names: Vec<(i64, String)>,
 }
 
 /// What the engine has to say.

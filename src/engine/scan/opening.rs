@@ -26,6 +26,8 @@ pub(super) struct Opening {
     /// The command's.
     pub(super) id: u64,
     files: Vec<NamedFile>,
+    /// Which of their volumes.
+    volume: Option<usize>,
     stage: Stage,
 }
 
@@ -59,8 +61,8 @@ enum Stage {
 
 impl Opening {
     /// Before the first byte.
-    pub(super) fn new(id: u64, files: Vec<NamedFile>) -> Self {
-        Self { id, files, stage: Stage::Beginning }
+    pub(super) fn new(id: u64, files: Vec<NamedFile>, volume: Option<usize>) -> Self {
+        Self { id, files, volume, stage: Stage::Beginning }
     }
 
     /// The smallest number of a file that is on the shelf.
@@ -149,7 +151,8 @@ impl Opening {
             .map(|(file, bytes)| Head { name: &file.name, bytes, length: length(file) })
             .collect();
         Ok(match volume::begin(&heads).map_err(|error| tell(&error))? {
-            Some(stream) => {
+            Some(mut stream) => {
+                stream.choose(self.volume);
                 Stage::Streaming { next: stream.start(), stream: Box::new(stream), piece: Vec::new(), used: 0 }
             }
             None => gathering,
@@ -166,7 +169,7 @@ impl Opening {
         let Some(file) = self.files.get(whole.len()) else {
             let parts: Vec<Part> =
                 self.files.iter().zip(&whole).map(|(file, bytes)| Part { name: &file.name, bytes }).collect();
-            return Ok(self.survey(volume::read(&parts).map_err(|error| tell(&error))?));
+            return Ok(self.survey(volume::read_volume(&parts, self.volume).map_err(|error| tell(&error))?));
         };
         match &file.contents {
             Contents::Bytes(bytes) => whole.push(Arc::clone(bytes)),
@@ -199,6 +202,9 @@ impl Opening {
             survey: Survey { range: [0.0; 2], histogram: Vec::new(), labels: Vec::new() },
             proposed: None,
             warnings: scan.warnings,
+            offers: scan.offers,
+            taken: scan.taken,
+            names: scan.names,
         });
         let surveyed = Arc::clone(&grid);
         let survey = Running::new(|yielder| async move { survey_in_slices(&surveyed, &yielder).await });

@@ -19,7 +19,7 @@ fn ball(is_mask: bool) -> ScanCommand {
         let depth = RADIUS - (x * x + y * y + z * z).sqrt();
         bytes.push(if is_mask { u8::from(depth > 0.0) } else { (100.0 + 10.0 * depth) as u8 });
     }
-    ScanCommand::Open { id: 7, files: vec![NamedFile::new("ball.mha", bytes)] }
+    ScanCommand::Open { id: 7, files: vec![NamedFile::new("ball.mha", bytes)], volume: None }
 }
 
 /// Sends a command, lets the engine work until it is done, and says what it told; each message crosses unchanged.
@@ -98,7 +98,7 @@ fn what_cannot_be_done_is_told_in_a_sentence_and_the_volume_stays() {
     assert_eq!(refused(&run(&mut engine, surface(Selection::AnyLabel))), (2, "No scan is open yet.".to_owned()));
     run(&mut engine, ball(false));
     let letter = NamedFile::new("letter", b"Dear colleague".to_vec());
-    let (number, sentence) = refused(&run(&mut engine, ScanCommand::Open { id: 9, files: vec![letter] }));
+    let (number, sentence) = refused(&run(&mut engine, ScanCommand::Open { id: 9, files: vec![letter], volume: None }));
     assert!(number == 9 && sentence.starts_with("\"letter\" is not a volume"), "{sentence}");
     let (number, sentence) = refused(&run(&mut engine, preview(Selection::Threshold(900.0), None, None)));
     assert!(number == 3 && sentence.starts_with("No surface lies at the threshold 900"), "{sentence}");
@@ -175,7 +175,7 @@ fn with_shelf(first: u32, files: Vec<(String, Vec<u8>)>) -> (ScanEngine, ScanCom
         name,
         contents: Contents::Shelved { number, bytes: bytes.len() as u64 },
     });
-    let open = ScanCommand::Open { id: 7, files: named.collect() };
+    let open = ScanCommand::Open { id: 7, files: named.collect(), volume: None };
     (ScanEngine::with_shelf(Shelved { first: 0, files: [vec![Vec::new(); first as usize], files].concat() }), open)
 }
 
@@ -215,7 +215,7 @@ fn a_file_that_has_gone_is_told() {
     let ScanCommand::Open { files, .. } = open else { panic!("it opens") };
     let gone = NamedFile { contents: Contents::Shelved { number: 5, bytes: 100 }, ..files[0].clone() };
     assert_eq!(
-        run(&mut engine, ScanCommand::Open { id: 8, files: vec![gone] }),
+        run(&mut engine, ScanCommand::Open { id: 8, files: vec![gone], volume: None }),
         [ScanEvent::Refused { number: 8, sentence: "The file has gone.".to_owned() }]
     );
 }

@@ -14,14 +14,8 @@ pub(super) fn silent(format: &str) -> Warning {
     ScanWarning::Silent { format: format.to_owned() }.into()
 }
 
-/// `count` numbers between white space or any of `,()`; `None` where there are not as many, or more.
-pub(super) fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+/// The numbers between white space or any of `,()`; `None` where something else is between them.
+pub(super) fn list(text: &str) -> Option<Vec<f64>> {
     let words = text.split(|c: char| c.is_ascii_whitespace() || ",()".contains(c)).filter(|word| !word.is_empty());
-    let mut found = [0.0; N];
-    let mut count = 0;
-    for word in words {
-        *found.get_mut(count)? = word.parse().ok()?;
-        count += 1;
-    }
-    (count == N).then_some(found)
+    words.map(|word| word.parse().ok()).collect()
 }

@@ -34,6 +34,26 @@ messages! {
             /// Bytes of its numbers.
             bytes: u64,
         } => "There is not enough memory for the {bytes} bytes of the volume.",
+        /// Several slices at a place.
+        "scan-dicom-mixed" Mixed {
+            /// How many places.
+            places: usize,
+        } => (
+            places,
+            "Several slices lie at one place, and nothing in the files says which volume each is of: open the files of one volume alone.",
+            "Several slices lie at each of {places} places, and nothing in the files says which volume each is of: open the files of one volume alone."
+        ),
+        /// Fewer volumes than that.
+        "scan-no-such-volume" NoSuchVolume {
+            /// The one asked for, from 1.
+            number: usize,
+            /// How many there are.
+            count: usize,
+        } => (
+            count,
+            "There is no volume {number}: the files hold one.",
+            "There is no volume {number}: the files hold {count}."
+        ),
     } or {
         /// The file is broken, cut short, or uses what Lumen does not read.
         File(ReadError),

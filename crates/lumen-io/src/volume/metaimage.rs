@@ -13,16 +13,18 @@ use super::super::numbers::Scalar;
 use super::super::problem::ScanProblem;
 use super::super::text;
 use super::super::warnings::{ScanWarning, Warning};
-use super::axes::{numbers, silent};
+use super::axes::{list, silent};
 use super::error::ScanError;
 use super::lines::lines;
 use super::numbers::{Layout, Packing};
-use super::outline::Outline;
+use super::outline::{Layers, Outline};
 use super::parts::Head;
 use super::parts::named;
 use lumen_volume::{Geometry, VolumeError};
 
 const FORMAT: &str = "MetaImage";
+/// Axes that are looked at; all beyond the third have one entry.
+const MOST_AXES: usize = 8;
 
 /// What a header says, and where it ends.
 struct Header<'a> {
@@ -54,14 +56,18 @@ impl<'a> Header<'a> {
         self.get(key).is_some_and(|found| found.eq_ignore_ascii_case(value))
     }
 
-    /// The first of `keys` that is there, as numbers.
-    fn numbers<const N: usize>(&self, keys: &[&'static str]) -> Result<Option<[f64; N]>, ScanError> {
+    /// The first of `keys` that is there, as `count` numbers.
+    fn numbers(&self, keys: &[&'static str], count: usize) -> Result<Option<Vec<f64>>, ScanError> {
         let Some((key, value)) = keys.iter().find_map(|&key| self.get(key).map(|value| (key, value))) else {
             return Ok(None);
         };
-        let found = numbers(value);
-        let problem = || ScanError::malformed(FORMAT, ScanProblem::NotNumbers { key, count: N });
-        found.map(Some).ok_or_else(problem)
+        let problem = || ScanError::malformed(FORMAT, ScanProblem::NotNumbers { key, count });
+        list(value).filter(|found| found.len() == count).map(Some).ok_or_else(problem)
+    }
+
+    /// As [`numbers`](Self::numbers), one for each axis, of which the first three count.
+    fn of_axes(&self, keys: &[&'static str], axes: usize) -> Result<Option<[f64; 3]>, ScanError> {
+        Ok(self.numbers(keys, axes)?.and_then(|found| found.first_chunk().copied()))
     }
 
     /// The file that the numbers stand in; `None` for the header's own.
@@ -108,23 +114,29 @@ fn unit(header: &Header) -> (f64, Vec<Warning>) {
 /// What the header in file `at` says.
 pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
     let header = Header::parse(files[at].bytes)?;
-    if header.get("NDims").is_some_and(|n| n != "3") {
-        return Err(ScanError::unsupported(FORMAT, Feature::NotThreeDimensions));
-    }
+    let axes = header.get("NDims").map_or(Some(3), |n| n.parse().ok());
+    let axes = axes.filter(|axes| (3..=MOST_AXES).contains(axes));
+    let axes: usize = axes.ok_or_else(|| ScanError::unsupported(FORMAT, Feature::NotThreeDimensions))?;
     if header.get("ElementNumberOfChannels").is_some_and(|n| n != "1") {
         return Err(ScanError::unsupported(FORMAT, Feature::NumbersAVoxel));
     }
     let missing = |key| ScanError::malformed(FORMAT, ScanProblem::HeaderLacks { key });
-    let size = header.numbers::<3>(&["DimSize"])?.ok_or_else(|| missing("DimSize"))?.map(|n| n as usize);
-    let spacing = header.numbers::<3>(&["ElementSpacing", "ElementSize"])?.unwrap_or([1.0; 3]);
-    let origin = header.numbers::<3>(&["Offset", "Position", "Origin"])?.unwrap_or_default();
-    let rows = header.numbers::<9>(&["TransformMatrix", "Rotation", "Orientation"])?;
-    let direction = rows.map_or(DMat3::IDENTITY, |rows| DMat3::from_cols_array(&rows));
+    let sizes = header.numbers(&["DimSize"], axes)?.ok_or_else(|| missing("DimSize"))?;
+    if sizes[3..].iter().any(|&along| along != 1.0) {
+        return Err(ScanError::unsupported(FORMAT, Feature::MoreDimensions));
+    }
+    let size = [0, 1, 2].map(|axis| sizes[axis] as usize);
+    let spacing = header.of_axes(&["ElementSpacing", "ElementSize"], axes)?.unwrap_or([1.0; 3]);
+    let origin = header.of_axes(&["Offset", "Position", "Origin"], axes)?.unwrap_or_default();
+    let rows = header.numbers(&["TransformMatrix", "Rotation", "Orientation"], axes * axes)?;
+    let direction = rows.map_or(DMat3::IDENTITY, |rows| {
+        DMat3::from_cols_array_2d(&[0, 1, 2].map(|row| [0, 1, 2].map(|column| rows[row * axes + column])))
+    });
     let (scale, mut warnings) = unit(&header);
     // ITK writes three letters beside directions that are LPS, "???" where it does not know them.
     let orientation = header.get("AnatomicalOrientation").unwrap_or_default();
     let is_stated = orientation.len() == 3 && orientation.bytes().all(|letter| b"RLAPISrlapis".contains(&letter));
-    let axes = if is_stated { Axes::Lps } else { Axes::Unknown };
+    let known = if is_stated { Axes::Lps } else { Axes::Unknown };
     if !is_stated {
         warnings.push(silent(FORMAT));
     }
@@ -155,5 +167,19 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
         None => 0,
     };
     let (is_ct, scaling) = (header.is("Modality", "MET_MOD_CT"), [1.0, 0.0]);
-    Ok(Outline { format: FORMAT, geometry, layout, packing, file, start, skipped, scaling, axes, is_ct, warnings })
+    let (axes, layers) = (known, Layers::default());
+    Ok(Outline {
+        format: FORMAT,
+        geometry,
+        layout,
+        packing,
+        file,
+        start,
+        skipped,
+        scaling,
+        axes,
+        is_ct,
+        warnings,
+        layers,
+    })
 }

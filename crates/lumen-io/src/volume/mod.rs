@@ -17,6 +17,7 @@ mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod files;
 mod headers;
+mod layers;
 mod lines;
 mod metaimage;
 mod nifti;
@@ -45,6 +46,15 @@ use parts::base_name;
 /// [`ScanError`], each in one plain sentence: no file is a volume, one is broken or cut short, the numbers are missing, do not
 /// fit into memory or have no place in a patient.
 pub fn read(parts: &[Part]) -> Result<Scan, ScanError> {
+    read_volume(parts, None)
+}
+
+/// As [`read`]; of files that hold several volumes that of number `choice` in [`Scan::offers`], or where there is none the one of
+/// most slices.
+///
+/// # Errors
+/// As [`read`], and [`ScanError::NoSuchVolume`].
+pub fn read_volume(parts: &[Part], choice: Option<usize>) -> Result<Scan, ScanError> {
     let found =
         parts.iter().enumerate().find_map(|(at, part)| headers::content(part.bytes).map(|content| (at, content)));
     let Some((at, content)) = found else {
@@ -58,11 +68,17 @@ pub fn read(parts: &[Part]) -> Result<Scan, ScanError> {
     let heads: Vec<Head> =
         parts.iter().map(|part| Head { name: part.name, bytes: part.bytes, length: whole(part) }).collect();
     match Way::of(content, at, &heads)? {
-        Way::Pieces(outline) => stream::read_whole(*outline, parts),
+        Way::Pieces(mut outline) => {
+            outline.layers.choice = choice;
+            stream::read_whole(*outline, parts)
+        }
+        Way::Vti if choice.is_some_and(|number| number > 0) => {
+            Err(ScanError::NoSuchVolume { number: choice.unwrap_or(0) + 1, count: 1 })
+        }
         Way::Vti => vti::read(parts[at].bytes),
         Way::Dicom => {
             let is_slice = |part: &&Part| headers::content(part.bytes) == Some(content);
-            dicom::read(&parts.iter().filter(is_slice).collect::<Vec<_>>())
+            dicom::read(&parts.iter().filter(is_slice).collect::<Vec<_>>(), choice)
         }
     }
 }

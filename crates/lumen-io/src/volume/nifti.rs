@@ -2,21 +2,26 @@
 //!
 //! The standards are Cox et al., "NIfTI-1 Data Format" (2003), and its 64-bit successor (2011). Coordinates are RAS in the
 //! unit that the header names, and are turned into LPS millimetres. Where a header has both, its quaternion (`qform`) is
-//! taken if its matrix (`sform`) has no code, as the standard's own tools do. Volumes of more than three axes are read where
-//! the others have one entry.
+//! taken if its matrix (`sform`) has no code, as the standard's own tools do, or is none that a grid can have. Volumes of more
+//! than three axes are read where the others have one entry.
+//!
+//! Analyze 7.5, which NIfTI came from, has the same header without its last word, its slope and its place: always a header and
+//! its numbers, in axes that nobody knows.
 //!
 //! The crate `nifti` is not used: it takes memory as a header claims it, and knows no NIfTI-2.
 
 use glam::{DMat3, DVec3};
 
 use super::super::axes::Axes;
+use super::super::detect;
 use super::super::error::Feature;
 use super::super::numbers::Scalar;
 use super::super::problem::ScanProblem;
+use super::super::warnings::{ScanWarning, Warning};
 use super::axes::{ras_to_lps, silent};
 use super::error::ScanError;
 use super::numbers::{Layout, Packing, first_unfolded, is_gzip};
-use super::outline::Outline;
+use super::outline::{Layers, Outline};
 use super::parts::{Head, base_name, named};
 use lumen_volume::{Geometry, VolumeError};
 
@@ -71,6 +76,7 @@ const PLACES_2: Places = Places {
 struct Header<'a> {
     bytes: &'a [u8],
     is_second: bool,
+    is_analyze: bool,
     is_big_endian: bool,
 }
 
@@ -102,10 +108,13 @@ impl<'a> Header<'a> {
             known.then_some(is_big_endian)
         };
         if let Some(is_big_endian) = is(SIZE_1, 344, [b"n+1\0", b"ni1\0"]) {
-            return Some(Self { bytes, is_second: false, is_big_endian });
+            return Some(Self { bytes, is_second: false, is_analyze: false, is_big_endian });
+        }
+        if let Some(is_big_endian) = detect::analyze(bytes) {
+            return Some(Self { bytes, is_second: false, is_analyze: true, is_big_endian });
         }
         let is_big_endian = is(SIZE_2, 4, [b"n+2\0", b"ni2\0"])?;
-        Some(Self { bytes, is_second: true, is_big_endian })
+        Some(Self { bytes, is_second: true, is_analyze: false, is_big_endian })
     }
 
     fn places(&self) -> &'static Places {
@@ -114,7 +123,7 @@ impl<'a> Header<'a> {
 
     /// Whether the numbers stand in a file of their own.
     fn is_apart(&self) -> bool {
-        self.bytes[if self.is_second { 5 } else { 345 }] == b'i'
+        self.is_analyze || self.bytes[if self.is_second { 5 } else { 345 }] == b'i'
     }
 
     /// `N` bytes from `at` on, which lies within any header, in little-endian order.
@@ -205,16 +214,59 @@ impl<'a> Header<'a> {
         }
     }
 
-    /// The steps along the axes and the origin, in RAS and in the file's unit; `None` where it says nothing of them.
-    fn placed(&self) -> Option<(DMat3, DVec3)> {
-        let places = self.places();
-        let spacing = |axis| self.float(places.spacings, axis);
-        if self.code(places.sform) > 0 {
-            let row = |row: usize| [0, 1, 2, 3].map(|column| self.float(places.rows, 4 * row + column));
-            let [x, y, z] = [row(0), row(1), row(2)];
-            let column = |i: usize| DVec3::new(x[i], y[i], z[i]);
-            return Some((DMat3::from_cols(column(0), column(1), column(2)), column(3)));
+    fn spacing(&self, axis: usize) -> f64 {
+        self.float(self.places().spacings, axis)
+    }
+
+    /// The steps along the axes and the origin, in RAS and in the file's unit; `None` where it says nothing of them. What is to be
+    /// said of that goes to `warnings`.
+    fn placed(&self, warnings: &mut Vec<Warning>) -> Option<(DMat3, DVec3)> {
+        if self.is_analyze {
+            return None;
         }
+        let spans =
+            |&(steps, _): &(DMat3, DVec3)| Geometry::from_steps([1; 3], steps * self.unit(), DVec3::ZERO).is_ok();
+        let by_matrix = self.matrix();
+        if let Some((steps, origin)) = by_matrix.filter(spans) {
+            warnings.extend(self.contradiction(steps));
+            return Some((steps, origin));
+        }
+        let by_quaternion = self.quaternion().filter(spans);
+        if by_matrix.is_some() {
+            warnings.push(match by_quaternion {
+                Some(_) => ScanWarning::NoMatrix.into(),
+                None => ScanWarning::NoPlace.into(),
+            });
+        }
+        by_quaternion
+    }
+
+    /// What the matrix (`sform`) says, if it has a code.
+    fn matrix(&self) -> Option<(DMat3, DVec3)> {
+        let places = self.places();
+        let row = |row: usize| [0, 1, 2, 3].map(|column| self.float(places.rows, 4 * row + column));
+        let [x, y, z] = [row(0), row(1), row(2)];
+        let column = |i: usize| DVec3::new(x[i], y[i], z[i]);
+        (self.code(places.sform) > 0).then(|| (DMat3::from_cols(column(0), column(1), column(2)), column(3)))
+    }
+
+    /// Tells of spacings that are others than those of the matrix by a factor, as where a unit was changed in one of them.
+    fn contradiction(&self, steps: DMat3) -> Option<Warning> {
+        /// Rounding leaves less, and a sheared matrix as much.
+        const FACTOR: f64 = 1.1;
+        let columns = [steps.x_axis, steps.y_axis, steps.z_axis].map(DVec3::length);
+        let is_off = |(axis, &length): (usize, &f64)| {
+            let stated = self.spacing(axis + 1).abs();
+            stated > 0.0 && !(1.0 / FACTOR..FACTOR).contains(&(length / stated))
+        };
+        let (axis, &matrix) = columns.iter().enumerate().find(|&column| is_off(column))?;
+        let unit = self.unit();
+        Some(ScanWarning::Spacings { matrix: unit * matrix, stated: unit * self.spacing(axis + 1).abs() }.into())
+    }
+
+    /// What the quaternion (`qform`) says, if it has a code.
+    fn quaternion(&self) -> Option<(DMat3, DVec3)> {
+        let places = self.places();
         if self.code(places.qform) <= 0 {
             return None;
         }
@@ -231,8 +283,9 @@ impl<'a> Header<'a> {
             DVec3::new(2.0 * (b * c - a * d), a * a + c * c - b * b - d * d, 2.0 * (c * d + a * b)),
             DVec3::new(2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a + d * d - b * b - c * c),
         );
-        let hand = if spacing(0) < 0.0 { -1.0 } else { 1.0 };
-        let spacing = DVec3::new(spacing(1), spacing(2), hand * spacing(3));
+        let hand = if self.spacing(0) < 0.0 { -1.0 } else { 1.0 };
+        let [along_i, along_j, along_k] = [1, 2, 3].map(|axis| some_spacing(self.spacing(axis)));
+        let spacing = DVec3::new(along_i, along_j, hand * along_k);
         Some((rotation * DMat3::from_diagonal(spacing), DVec3::new(x, y, z)))
     }
 }
@@ -243,31 +296,36 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
     let unfolded = if is_gzip(part.bytes) { first_unfolded(part.bytes) } else { Vec::new() };
     let header = Header::parse(if unfolded.is_empty() { part.bytes } else { &unfolded });
     let header = header.ok_or_else(|| ScanError::malformed(FORMAT, ScanProblem::NoHeader))?;
+    let format = if header.is_analyze { "Analyze" } else { FORMAT };
     let (places, size) = (header.places(), header.size()?);
     let mut warnings = Vec::new();
-    let (steps, origin, axes) = match header.placed() {
+    let (steps, origin, axes) = match header.placed(&mut warnings) {
         Some((steps, origin)) => {
             let (steps, origin) = ras_to_lps(steps, origin);
             (steps, origin, Axes::Lps)
         }
         None => {
-            warnings.push(silent(FORMAT));
-            let spacing = DVec3::from([1, 2, 3].map(|axis| some_spacing(header.float(places.spacings, axis))));
+            warnings.push(silent(format));
+            let spacing = DVec3::from([1, 2, 3].map(|axis| some_spacing(header.spacing(axis))));
             (DMat3::from_diagonal(spacing), DVec3::ZERO, Axes::Unknown)
         }
     };
     let (steps, origin) = (steps * header.unit(), origin * header.unit());
     let geometry = Geometry::from_steps(size, steps, origin).map_err(VolumeError::from)?;
-    let layout = Layout::new(FORMAT, size, header.scalar()?, header.is_big_endian)?;
+    let layout = Layout::new(format, size, header.scalar()?, header.is_big_endian)?;
     let file = match data_name(part.bytes, part.name) {
-        Some(name) => named(files, &name, FORMAT)?,
+        Some(name) => named(files, &name, format)?,
         None => at,
     };
     let packing = if is_gzip(files[file].bytes) { Packing::Gzip } else { Packing::Plain };
-    let scaling = [places.slope, places.intercept].map(|place| header.float(place, 0));
+    let scaling = if header.is_analyze {
+        [1.0, 0.0]
+    } else {
+        [places.slope, places.intercept].map(|place| header.float(place, 0))
+    };
     let (start, skipped) = (0, header.offset());
     Ok(Outline {
-        format: FORMAT,
+        format,
         geometry,
         layout,
         packing,
@@ -278,6 +336,7 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
         axes,
         is_ct: false,
         warnings,
+        layers: Layers::default(),
     })
 }
 

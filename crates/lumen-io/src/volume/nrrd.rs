@@ -1,8 +1,9 @@
 //! NRRD: a header of `field: value` lines up to an empty one, the numbers behind it (.nrrd) or in a file of their own (.nhdr).
 //!
 //! Kindlmann, "Definition of NRRD File Format" (teem). The directions of its axes are steps, spacing included, in the space
-//! that it names: left-posterior-superior and right-anterior-superior are known here. Volumes of more than three axes, as
-//! colours or time, are not read. There is no crate of some standing that reads it.
+//! that it names: left-posterior-superior and right-anterior-superior are known here. Of more than three axes those of one entry
+//! do not count; the first may be the layers of a segmentation, as 3D Slicer writes them with the names of its segments. Other
+//! axes, as colours or time, are not read. There is no crate of some standing that reads it.
 
 use glam::{DMat3, DVec3};
 
@@ -12,25 +13,30 @@ use super::super::numbers::Scalar;
 use super::super::problem::ScanProblem;
 use super::super::text;
 use super::super::warnings::{ScanWarning, Warning};
-use super::axes::{numbers, ras_to_lps, silent};
+use super::axes::{list, ras_to_lps, silent};
 use super::error::ScanError;
 use super::lines::lines;
 use super::numbers::{Layout, Packing};
-use super::outline::Outline;
+use super::outline::{Layers, Outline, Segment};
 use super::parts::{Head, named};
 use lumen_volume::{Geometry, VolumeError};
 
 const FORMAT: &str = "NRRD";
+/// Axes that are looked at, and segments.
+const MOST_AXES: usize = 8;
+const MOST_SEGMENTS: usize = 4096;
 
 /// What a header says, and where it ends.
 struct Header<'a> {
     fields: Vec<(String, &'a str)>,
+    /// What the writer has added, `key:=value`.
+    remarks: Vec<(&'a str, &'a str)>,
     length: usize,
 }
 
 impl<'a> Header<'a> {
     fn parse(bytes: &'a [u8]) -> Result<Self, ScanError> {
-        let (mut fields, mut length) = (Vec::new(), 0);
+        let (mut fields, mut remarks, mut length) = (Vec::new(), Vec::new(), 0);
         for (line, end) in lines(bytes, 0) {
             length = end;
             let is_remark = line.starts_with(b"#") || line.windows(2).any(|pair| pair == b":=");
@@ -41,18 +47,21 @@ impl<'a> Header<'a> {
                 Err(_) => return Err(Self::endless()),
             };
             if line.is_empty() {
-                return Ok(Self { fields, length });
+                return Ok(Self { fields, remarks, length });
             }
-            // A field; `key:=value` is a remark of the writer's, and so is what begins with a cross.
-            if let Some((key, value)) = line.split_once(": ")
-                && !line.starts_with('#')
-            {
+            // A field; what begins with a cross is a remark, too.
+            if line.starts_with('#') {
+                continue;
+            }
+            if let Some((key, value)) = line.split_once(":=") {
+                remarks.push((key.trim(), value.trim()));
+            } else if let Some((key, value)) = line.split_once(": ") {
                 // Some fields are written with and without the space in their name.
                 fields.push((key.to_ascii_lowercase().replace(' ', ""), value.trim()));
             }
         }
         // A header of its own may end with its last line.
-        if length == bytes.len() { Ok(Self { fields, length }) } else { Err(Self::endless()) }
+        if length == bytes.len() { Ok(Self { fields, remarks, length }) } else { Err(Self::endless()) }
     }
 
     fn endless() -> ScanError {
@@ -67,10 +76,75 @@ impl<'a> Header<'a> {
         self.get(key).ok_or_else(|| ScanError::malformed(FORMAT, ScanProblem::HeaderLacks { key }))
     }
 
-    fn numbers<const N: usize>(&self, key: &'static str) -> Result<Option<[f64; N]>, ScanError> {
-        let problem = || ScanError::malformed(FORMAT, ScanProblem::NotNumbers { key, count: N });
-        self.get(key).map(|value| numbers(value).ok_or_else(problem)).transpose()
+    fn remark(&self, key: &str) -> Option<&'a str> {
+        self.remarks.iter().find(|(known, _)| *known == key).map(|&(_, value)| value)
     }
+
+    /// A list of `count` numbers.
+    fn numbers(&self, key: &'static str, count: usize) -> Result<Option<Vec<f64>>, ScanError> {
+        let problem = || ScanError::malformed(FORMAT, ScanProblem::NotNumbers { key, count });
+        self.get(key).map(|value| list(value).filter(|found| found.len() == count).ok_or_else(problem)).transpose()
+    }
+
+    /// The segments of a segmentation: layer, label and name of each.
+    fn segments(&self) -> Vec<Segment> {
+        let segment = |number: usize| {
+            let get = |what: &str| self.remark(&format!("Segment{number}_{what}"));
+            let whole = |what: &str| get(what).and_then(|value| value.parse::<u32>().ok());
+            let name = get("Name").or_else(|| get("ID"))?.chars().take(128).collect();
+            let (layer, label) = (whole("Layer").unwrap_or(0) as usize, whole("LabelValue").unwrap_or(1).into());
+            Some(Segment { layer, label, name })
+        };
+        (0..MOST_SEGMENTS).map_while(segment).collect()
+    }
+}
+
+/// The axes of a grid among those of a file.
+struct Grid {
+    /// The numbers of the three.
+    axes: [usize; 3],
+    size: [usize; 3],
+    /// How many layers lie in each other, one number of each after another.
+    layers: usize,
+}
+
+impl Grid {
+    fn of(header: &Header) -> Result<Self, ScanError> {
+        let refused = || ScanError::unsupported(FORMAT, Feature::NotThreeDimensions);
+        let count = header.need("dimension")?.parse().ok().filter(|count| (3..=MOST_AXES).contains(count));
+        let count: usize = count.ok_or_else(refused)?;
+        header.need("sizes")?;
+        let sizes = header.numbers("sizes", count)?.unwrap_or_default();
+        let has_direction = |axis: usize| match header.get("spacedirections") {
+            Some(text) => vectors(text).is_none_or(|vectors| vectors.get(axis).is_some_and(Option::is_some)),
+            None => true,
+        };
+        let mut axes: Vec<usize> = (0..count).filter(|&axis| has_direction(axis)).collect();
+        while let Some(at) = axes.iter().rposition(|&axis| sizes[axis] == 1.0).filter(|_| axes.len() > 3) {
+            axes.remove(at);
+        }
+        let axes: [usize; 3] = axes.try_into().map_err(|_| refused())?;
+        let others = (0..count).filter(|axis| !axes.contains(axis) && sizes[*axis] != 1.0);
+        let layers = match others.collect::<Vec<_>>()[..] {
+            [] => 1,
+            [0] if !header.segments().is_empty() => sizes[0] as usize,
+            _ => return Err(ScanError::unsupported(FORMAT, Feature::MoreDimensions)),
+        };
+        Ok(Self { axes, size: axes.map(|axis| sizes[axis] as usize), layers })
+    }
+}
+
+/// A list of vectors, `none` for those that are none; `None` where it is no such list.
+fn vectors(text: &str) -> Option<Vec<Option<[f64; 3]>>> {
+    let (mut found, mut rest) = (Vec::new(), text.trim_start());
+    while !rest.is_empty() && found.len() <= MOST_AXES {
+        let end = if rest.starts_with('(') { rest.find(')')? + 1 } else { rest.find([' ', '(']).unwrap_or(rest.len()) };
+        let (vector, after) = rest.split_at(end);
+        // Of a space of more axes the first three are the body's.
+        found.push(if vector == "none" { None } else { Some(*list(vector)?.first_chunk()?) });
+        rest = after.trim_start();
+    }
+    Some(found)
 }
 
 /// The file in which the numbers stand, where it is not the header's own.
@@ -116,18 +190,32 @@ fn unit(header: &Header, warnings: &mut Vec<Warning>) -> f64 {
 }
 
 /// The place of the grid, its axes, and what is to be said about it.
-fn geometry(header: &Header, size: [usize; 3]) -> Result<(Geometry, Axes, Vec<Warning>), ScanError> {
-    let steps = match header.numbers::<9>("spacedirections")? {
-        Some(columns) => DMat3::from_cols_array(&columns),
+fn geometry(header: &Header, grid: &Grid) -> Result<(Geometry, Axes, Vec<Warning>), ScanError> {
+    let count = header.need("dimension")?.parse().unwrap_or(3);
+    let steps = match header.get("spacedirections") {
+        Some(text) => {
+            let problem = || ScanError::malformed(FORMAT, ScanProblem::NotNumbers { key: "spacedirections", count: 9 });
+            let vectors = vectors(text).filter(|vectors| vectors.len() == count).ok_or_else(problem)?;
+            let [x, y, z] = grid.axes.map(|axis| vectors[axis].map(DVec3::from).ok_or_else(problem));
+            DMat3::from_cols(x?, y?, z?)
+        }
         None => {
-            let spacing = header.numbers::<3>("spacings")?.unwrap_or([1.0; 3]);
+            let spacings = header.numbers("spacings", count)?;
+            let spacing = spacings.map_or([1.0; 3], |spacings| grid.axes.map(|axis| spacings[axis]));
             DMat3::from_diagonal(DVec3::from(spacing))
         }
     };
-    let origin = DVec3::from(header.numbers::<3>("spaceorigin")?.unwrap_or_default());
+    let origin = match header.get("spaceorigin") {
+        Some(text) => {
+            let problem = || ScanError::malformed(FORMAT, ScanProblem::NotNumbers { key: "spaceorigin", count: 3 });
+            list(text).and_then(|origin| origin.first_chunk().copied()).map(DVec3::from).ok_or_else(problem)?
+        }
+        None => DVec3::ZERO,
+    };
+    let size = grid.size;
     let (mut warnings, space) = (Vec::new(), header.get("space").map(str::to_ascii_lowercase));
     let mut axes = Axes::Lps;
-    let (steps, origin) = match space.as_deref() {
+    let (steps, origin) = match space.as_deref().map(|space| space.trim_end_matches("-time")) {
         Some("left-posterior-superior" | "lps") => (steps, origin),
         Some("right-anterior-superior" | "ras") => ras_to_lps(steps, origin),
         Some("left-anterior-superior" | "las") => {
@@ -147,16 +235,12 @@ fn geometry(header: &Header, size: [usize; 3]) -> Result<(Geometry, Axes, Vec<Wa
 /// What the header in file `at` says.
 pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
     let header = Header::parse(files[at].bytes)?;
-    if header.need("dimension")? != "3" {
-        return Err(ScanError::unsupported(FORMAT, Feature::NotThreeDimensions));
-    }
-    let missing = || ScanError::malformed(FORMAT, ScanProblem::HeaderLacks { key: "sizes" });
-    let size = header.numbers::<3>("sizes")?.ok_or_else(missing)?.map(|n| n as usize);
-    let (geometry, axes, warnings) = geometry(&header, size)?;
+    let grid = Grid::of(&header)?;
+    let (geometry, axes, warnings) = geometry(&header, &grid)?;
     let name = header.need("type")?;
     let scalar = scalar(name)
         .ok_or_else(|| ScanError::unsupported(FORMAT, Feature::NumberType { kind: text::quoted(name.as_bytes()) }))?;
-    let layout = Layout::new(FORMAT, size, scalar, header.get("endian") == Some("big"))?;
+    let layout = Layout::new(FORMAT, grid.size, scalar, header.get("endian") == Some("big"))?.times(grid.layers)?;
     let (file, begin) = match header.get("datafile") {
         None => (at, header.length),
         Some(name) if name.starts_with("LIST") || name.contains('%') => {
@@ -184,5 +268,19 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
         skipped => u64::try_from(skipped).unwrap_or(0),
     };
     let (is_ct, scaling) = (false, [1.0, 0.0]);
-    Ok(Outline { format: FORMAT, geometry, layout, packing, file, start, skipped, scaling, axes, is_ct, warnings })
+    let layers = Layers { count: grid.layers, segments: header.segments(), choice: None };
+    Ok(Outline {
+        format: FORMAT,
+        geometry,
+        layout,
+        packing,
+        file,
+        start,
+        skipped,
+        scaling,
+        axes,
+        is_ct,
+        warnings,
+        layers,
+    })
 }

@@ -88,6 +88,15 @@ impl Layout {
         }
     }
 
+    /// For so many grids in each other.
+    pub(super) fn times(self, layers: usize) -> Result<Self, ScanError> {
+        let bytes = self.bytes().saturating_mul(layers as u64);
+        if bytes > LARGEST {
+            return Err(ScanError::TooLarge { bytes, limit: LARGEST });
+        }
+        Ok(Self { points: self.points * layers, ..self })
+    }
+
     /// The bytes that the numbers take.
     pub(super) fn bytes(self) -> u64 {
         (self.points * self.scalar.size()) as u64

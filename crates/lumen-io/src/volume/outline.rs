@@ -1,8 +1,10 @@
 //! What a header says of its volume, and the volume that comes of it with its numbers.
 
 use super::super::axes::Axes;
-use super::super::warnings::Warning;
+use super::super::offer::Offer;
+use super::super::warnings::{ScanWarning, Warning};
 use super::error::ScanError;
+pub(super) use super::layers::{Layers, Segment};
 use super::numbers::{Layout, Packing};
 use lumen_volume::{Geometry, Grid, Samples};
 
@@ -19,6 +21,49 @@ pub struct Scan {
     pub is_ct: bool,
     /// Sentences for the user about what looks odd.
     pub warnings: Vec<Warning>,
+    /// The volumes that the files hold; none where they hold one, and cannot hold more.
+    pub offers: Vec<Offer>,
+    /// Which of them this is.
+    pub taken: usize,
+    /// Names of labels.
+    pub names: Vec<(i64, String)>,
+}
+
+impl Scan {
+    /// A volume of which nothing else is known.
+    pub(super) fn new(grid: Grid, format: &'static str, axes: Axes) -> Self {
+        let (warnings, offers, names) = (Vec::new(), Vec::new(), Vec::new());
+        Self { grid, format, axes, is_ct: false, warnings, offers, taken: 0, names }
+    }
+}
+
+/// All volumes that some files hold.
+#[derive(Default)]
+pub(super) struct Offers {
+    pub(super) list: Vec<Offer>,
+}
+
+impl Offers {
+    /// The first of those with most slices.
+    pub(super) fn largest(&self) -> usize {
+        let numbers = (0..self.list.len()).rev();
+        numbers.max_by_key(|&number| self.list[number].slices).unwrap_or(0)
+    }
+
+    /// What is told where series number `series`, of which volume `taken` was taken, holds others.
+    pub(super) fn warning(&self, series: usize, taken: usize) -> Option<Warning> {
+        /// More are not listed.
+        const LISTED: usize = 12;
+        let by = self.list.get(taken)?.by?;
+        let of_series: Vec<&Offer> = self.list.iter().filter(|offer| offer.series == series).collect();
+        let listed = of_series.iter().take(LISTED).map(|offer| format!("{} ({})", offer.value, offer.slices));
+        let mut list = listed.collect::<Vec<_>>().join(", ");
+        if of_series.len() > LISTED {
+            list.push_str(", \u{2026}");
+        }
+        let taken = self.list[taken].value.clone();
+        Some(ScanWarning::Volumes { count: of_series.len(), by, list, taken }.into())
+    }
 }
 
 /// What a header says.
@@ -38,12 +83,18 @@ pub(super) struct Outline {
     pub(super) axes: Axes,
     pub(super) is_ct: bool,
     pub(super) warnings: Vec<Warning>,
+    pub(super) layers: Layers,
 }
 
 impl Outline {
     pub(super) fn finish(self, samples: Samples) -> Result<Scan, ScanError> {
         let [slope, intercept] = self.scaling;
-        let grid = Grid::new(self.geometry, samples, slope, intercept)?;
-        Ok(Scan { grid, format: self.format, axes: self.axes, is_ct: self.is_ct, warnings: self.warnings })
+        let unfolded = self.layers.unfold(samples, self.geometry.size[2])?;
+        let grid = Grid::new(self.geometry, unfolded.samples, slope, intercept)?;
+        let mut scan = Scan::new(grid, self.format, self.axes);
+        (scan.is_ct, scan.warnings, scan.names) = (self.is_ct, self.warnings, unfolded.names);
+        scan.warnings.extend(unfolded.offers.warning(0, unfolded.taken));
+        (scan.offers, scan.taken) = (unfolded.offers.list, unfolded.taken);
+        Ok(scan)
     }
 }

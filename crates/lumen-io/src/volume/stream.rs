@@ -91,6 +91,11 @@ impl Stream {
         Ok(Self { outline, source, length })
     }
 
+    /// Takes volume number `choice` of a file that holds several, from 0.
+    pub fn choose(&mut self, choice: Option<usize>) {
+        self.outline.layers.choice = choice;
+    }
+
     /// Which of the files is to be pushed.
     pub fn file(&self) -> usize {
         self.outline.file

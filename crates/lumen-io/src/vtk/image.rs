@@ -1,7 +1,7 @@
-//! VTK's XML files of image data (.vti): a grid of points and an array of numbers on them.
+//! VTK's XML files of image data (.vti): a grid of points and an array of numbers on them, or on the cells between.
 //!
-//! Of the arrays the one is read that the file calls its scalars, else the first of one number a point. A file in pieces is
-//! not read.
+//! Of the arrays the one is read that the file calls its scalars, else the first of one number a point; of those on points
+//! before those on cells. A file in pieces is not read.
 
 use std::borrow::Cow;
 
@@ -29,6 +29,8 @@ pub(crate) struct Image<'a> {
     pub(crate) spacing: [f64; 3],
     /// The matrix from the grid's axes to space, row by row.
     pub(crate) direction: [f64; 9],
+    /// Whether the numbers are of the cells.
+    pub(crate) on_cells: bool,
     pub(crate) scalar: Scalar,
     pub(crate) values: Values<'a>,
 }
@@ -45,15 +47,32 @@ pub(crate) enum Values<'a> {
 struct Found<'a> {
     whole: Option<[[i64; 2]; 3]>,
     pieces: usize,
+    /// What the arrays that come are on.
+    on: Option<On>,
     scalars: Option<String>,
-    array: Option<DataArray<'a>>,
+    /// The array to read, and what speaks for it.
+    array: Option<(DataArray<'a>, Claim)>,
+}
+
+/// Points or cells, the better one last.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum On {
+    Cells,
+    Points,
+}
+
+/// What speaks for an array: that the file calls it its scalars, then what it is on.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Claim {
+    is_named: bool,
+    on: On,
 }
 
 /// Reads a file, whose compressed data may unfold to `room` bytes.
 pub(crate) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(Image) -> T) -> Result<T, ReadError> {
     let start = bytes.len() - text::without_mark(bytes).trim_ascii_start().len();
     let mut reader = Reader::from_reader(&bytes[start..]);
-    let (mut file, mut found, mut in_points) = (None::<Structure<'a>>, Found::default(), false);
+    let (mut file, mut found) = (None::<Structure<'a>>, Found::default());
     let (mut origin, mut spacing) = ([0.0; 3], [1.0; 3]);
     let mut direction = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
     loop {
@@ -62,7 +81,9 @@ pub(crate) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(Image) -
             Event::Start(element) => (element, true),
             Event::Empty(element) => (element, false),
             Event::End(element) => {
-                in_points &= element.name().as_ref() != b"PointData";
+                if matches!(element.name().as_ref(), b"PointData" | b"CellData") {
+                    found.on = None;
+                }
                 continue;
             }
             Event::Eof => break,
@@ -93,13 +114,19 @@ pub(crate) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(Image) -
                     return Err(ReadError::Unsupported { format: FORMAT, feature: Feature::Pieces });
                 }
             }
-            b"PointData" => (in_points, found.scalars) = (is_open, attribute(&element, "Scalars")),
+            on @ (b"PointData" | b"CellData") => {
+                let on = if on == b"PointData" { On::Points } else { On::Cells };
+                (found.on, found.scalars) = (is_open.then_some(on), attribute(&element, "Scalars"));
+            }
             b"DataArray" => {
                 let inline = if is_open { inline_text(&mut reader, bytes, start)? } else { (&b""[..], 0) };
                 let is_one = attribute(&element, "NumberOfComponents").is_none_or(|n| n == "1");
                 let is_named = found.scalars.is_some() && attribute(&element, "Name") == found.scalars;
-                if in_points && is_one && (is_named || found.array.is_none()) {
-                    found.array = Some(DataArray::new(FORMAT, &element, inline)?);
+                if let Some(on) = found.on.filter(|_| is_one) {
+                    let claim = Claim { is_named, on };
+                    if found.array.as_ref().is_none_or(|(_, best)| *best < claim) {
+                        found.array = Some((DataArray::new(FORMAT, &element, inline)?, claim));
+                    }
                 }
             }
             b"AppendedData" => {
@@ -112,7 +139,7 @@ pub(crate) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(Image) -
     }
     let file = file.ok_or_else(|| malformed(FORMAT, VtiProblem::NoElement { name: "VTKFile" }))?;
     let extent = found.whole.ok_or_else(|| malformed(FORMAT, VtiProblem::NoPoints))?;
-    let array = found.array.ok_or_else(|| malformed(FORMAT, VtiProblem::NoArray))?;
+    let (array, Claim { on, .. }) = found.array.ok_or_else(|| malformed(FORMAT, VtiProblem::NoArray))?;
     let pace = Pace::never();
     let opened = at_once(Arrays::new(&file, bytes, room, &pace).open(&array))?;
     let values = match opened.content {
@@ -120,7 +147,8 @@ pub(crate) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(Image) -
         Content::Little(bytes) => Values::Little(bytes),
         Content::Big(bytes) => Values::Big(bytes),
     };
-    Ok(make(Image { extent, origin, spacing, direction, scalar: opened.kind, values }))
+    let on_cells = on == On::Cells;
+    Ok(make(Image { extent, origin, spacing, direction, on_cells, scalar: opened.kind, values }))
 }
 
 /// Fills `values` from the words of a text; `None` where there are not as many.

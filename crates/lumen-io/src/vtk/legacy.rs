@@ -22,7 +22,7 @@ use super::surface::{Cells, Lengths, Shape, Surface};
 const MAGIC: &[u8] = b"# vtk DataFile";
 
 /// Whether a text begins as legacy VTK files do.
-pub(super) fn is_legacy(text: &[u8]) -> bool {
+pub(crate) fn is_legacy(text: &[u8]) -> bool {
     text.len() >= MAGIC.len() && text[..MAGIC.len()].eq_ignore_ascii_case(MAGIC)
 }
 
@@ -37,15 +37,7 @@ struct Parts<'a> {
 
 /// Reads a file, with positions relative to `origin`.
 pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
-    let mut cursor = Cursor::new(text::without_mark(bytes).trim_ascii_start(), pace);
-    cursor.rest_of_line();
-    let title = cursor.rest_of_line();
-    let encoding = cursor.word().unwrap_or_default();
-    cursor.is_binary = encoding.eq_ignore_ascii_case(b"binary");
-    if !cursor.is_binary && !encoding.eq_ignore_ascii_case(b"ascii") {
-        return Err(cursor.broken(VtkProblem::ThirdLine));
-    }
-    cursor.rest_of_line();
+    let (mut cursor, title) = begin(bytes, pace)?;
     let label = cursor.label();
     let room = MemoryBudget::of(bytes.len());
     let parts = Parts::read(&mut cursor, room).await?;
@@ -62,6 +54,20 @@ pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<Raw
     let counts = [surface.vertices() as u64, parts.cell_count()];
     let columns = legacy_data::read(&mut cursor, counts, room).await?;
     surface.finish(label, axes::stated(title), columns)
+}
+
+/// Goes over the first three lines, of which the second is a title.
+pub(super) fn begin<'a>(bytes: &'a [u8], pace: &'a Pace) -> Result<(Cursor<'a>, &'a [u8]), ReadError> {
+    let mut cursor = Cursor::new(text::without_mark(bytes).trim_ascii_start(), pace);
+    cursor.rest_of_line();
+    let title = cursor.rest_of_line();
+    let encoding = cursor.word().unwrap_or_default();
+    cursor.is_binary = encoding.eq_ignore_ascii_case(b"binary");
+    if !cursor.is_binary && !encoding.eq_ignore_ascii_case(b"ascii") {
+        return Err(cursor.broken(VtkProblem::ThirdLine));
+    }
+    cursor.rest_of_line();
+    Ok((cursor, title))
 }
 
 impl<'a> Parts<'a> {

@@ -13,6 +13,8 @@ mod encoded;
 mod image;
 mod legacy;
 mod legacy_data;
+#[cfg(feature = "scans")]
+mod legacy_image;
 mod legacy_text;
 mod problem;
 mod surface;
@@ -23,6 +25,9 @@ mod xml_structure;
 
 #[cfg(feature = "scans")]
 pub(super) use image::{Image, Values, read as read_image};
+pub(super) use legacy::is_legacy;
+#[cfg(feature = "scans")]
+pub(super) use legacy_image::read as read_legacy_image;
 pub use problem::VtkProblem;
 pub(super) use xml::is_xml;
 

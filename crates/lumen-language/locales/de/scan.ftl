@@ -12,6 +12,13 @@ scan-spacing = Abstand
 scan-spacing-help = Zwischen Spalten, Zeilen und Schichten
 scan-values = Werte
 scan-values-range = { $low } bis { $high }{ $unit }
+scan-volume = Volumen
+scan-volume-help = Welches der Volumen in den Dateien gezeigt wird; ein anderes wird neu gelesen
+scan-volume-offer = { $slices ->
+    [one] { $what } ({ $slices } Schicht)
+   *[other] { $what } ({ $slices } Schichten)
+}
+scan-volume-series = Serie { $number }
 scan-threshold = Schwelle
 scan-threshold-help = Was diesen Wert und mehr hat, ist das Gefäß; kontrastierte Gefäße im CT haben 150 bis 500 HU.
 scan-histogram = Histogramm mit der Schwelle
@@ -19,6 +26,7 @@ scan-vessel = Gefäß
 scan-vessel-help = Welches Label der Maske das Gefäß ist
 scan-vessel-label = Label des Gefäßes
 scan-label = Label { $label }
+scan-label-named = Label { $label }: { $name }
 scan-all-labels = Alle Labels
 scan-box = Ausschnitt
 scan-box-help = Nur diese Voxel werden betrachtet: Was außerhalb liegt, etwa Knochen, wird weggelassen
@@ -117,6 +125,7 @@ scan-known-range = es ist ein Scan mit Werten von { $low } bis { $high }
 scan-known-labels = es hat { $labels }
 scan-outside-box = Der Ausschnitt enthält nichts vom Volumen, das { $size } Voxel hat.
 scan-slice-too-large = Eine Schicht hat { $points } Voxel, von denen { $limit } bearbeitet werden können: einen Ausschnitt um die Gefäße setzen.
+scan-all-one-side = Es gibt keine Oberfläche: Das ganze Volumen liegt auf einer Seite.
 scan-one-side = Im Ausschnitt gibt es keine Oberfläche: Alles liegt auf einer Seite.
 scan-too-many-triangles = Die Oberfläche hat mehr als { $limit } Dreiecke, die meisten davon Rauschen oder Knochen: die Schwelle anheben oder einen Ausschnitt um die Gefäße setzen.
 
@@ -133,6 +142,14 @@ scan-points = Das Volumen hat { $points } Punkte und dafür { $samples } Zahlen.
 
 scan-no-volume = „{ $name }“ ist kein Volumen, das Lumen kennt: Es öffnet Dateien in NIfTI, NRRD, MetaImage und VTI und Serien in DICOM.
 scan-data-elsewhere = Der Kopf in { $format } hat seine Zahlen in der Datei „{ $name }“: beide zusammen öffnen.
+scan-dicom-mixed = { $places ->
+    [one] An einem Ort liegen mehrere Schichten, und nichts in den Dateien sagt, zu welchem Volumen jede gehört: die Dateien eines Volumens allein öffnen.
+   *[other] An { $places } Orten liegen je mehrere Schichten, und nichts in den Dateien sagt, zu welchem Volumen jede gehört: die Dateien eines Volumens allein öffnen.
+}
+scan-no-such-volume = { $count ->
+    [one] Es gibt kein Volumen { $number }: Die Dateien enthalten eines.
+   *[other] Es gibt kein Volumen { $number }: Die Dateien enthalten { $count }.
+}
 scan-too-large = Das Volumen ist zu groß: Seine Zahlen brauchen { $bytes } Byte, und Lumen kann { $limit } aufnehmen.
 scan-volume-memory = Für die { $bytes } Byte des Volumens reicht der Speicher nicht.
 scan-no-memory = Der Speicher reicht hier nicht, um { $mb } MB zu lesen.
@@ -144,6 +161,9 @@ scan-unreadable = { $path } ist nicht lesbar
 scan-silent = Die { $format }-Datei sagt nicht, wie der Patient liegt: Die Achsen sind unbekannt.
 scan-silent-format = { $format } sagt nicht, wie der Patient liegt: Die Achsen sind unbekannt.
 scan-unknown-unit = Die Längeneinheit der { $format }-Datei, { $unit }, ist nicht bekannt: Sie wird als mm genommen.
+scan-nifti-no-matrix = Die Matrix (sform) der NIfTI-Datei ist keine, obwohl sie gelten soll: Ihr Quaternion (qform) wird genommen.
+scan-nifti-no-place = Die Matrix (sform) der NIfTI-Datei ist keine, und ein Quaternion (qform) hat sie nicht: Ihre Abstände werden genommen.
+scan-nifti-spacings = Die NIfTI-Datei widerspricht sich: Nach ihrer Matrix (sform) sind Voxel { $matrix } mm voneinander entfernt, nach ihren Abständen { $stated } mm. Die Matrix wird genommen.
 
 ## Was an einer Datei falsch ist
 
@@ -169,7 +189,7 @@ scan-dicom-single = sie enthält eine einzige Schicht, und eine Oberfläche brau
 scan-vti-wrong = „{ $name }“ ist falsch
 scan-vti-no-element = das Element „{ $name }“ fehlt
 scan-vti-no-points = sie sagt nicht, wie viele Punkte es gibt
-scan-vti-no-array = sie hat kein Feld mit einer Zahl je Punkt
+scan-vti-no-array = sie hat kein Feld mit einer Zahl je Punkt oder Zelle
 
 ## Was nicht gelesen wird: ein Hauptwort im Akkusativ, hinter „verwendet“
 
@@ -193,9 +213,10 @@ scan-dicom-unreadable = { $count ->
    *[other] { $count } Schichten können nicht gelesen werden und werden weggelassen. { $why }
 }
 scan-dicom-same-place = { $count ->
-    [one] Eine Schicht liegt am Ort einer anderen: Von jedem Ort wird die erste genommen.
-   *[other] { $count } Schichten liegen am Ort einer anderen: Von jedem Ort wird die erste genommen.
+    [one] Eine Schicht ist zweimal da, am selben Ort und mit denselben Pixeln: Eine davon wird genommen.
+   *[other] { $count } Schichten sind zweimal da, am selben Ort und mit denselben Pixeln: Je eine davon wird genommen.
 }
+scan-volumes = Die Dateien enthalten { $count } Volumen einer Serie, unterschieden nach: { $by }; jedes mit seiner Zahl von Schichten: { $list }. Geöffnet ist { $taken }.
 scan-dicom-series = { $others ->
     [one] Die Dateien enthalten { $count } Serien: Die mit den meisten Schichten, { $taken }, wird genommen, und { $slices } der anderen werden weggelassen.
    *[other] Die Dateien enthalten { $count } Serien: Die mit den meisten Schichten, { $taken }, wird genommen, und { $slices } von { $others } anderen werden weggelassen.
@@ -206,6 +227,27 @@ scan-dicom-no-slices = { $count ->
 }
 scan-dicom-gap = Die Schichten haben keinen gleichmäßigen Abstand: meist { $usual } mm, aber { $there } mm zwischen den Schichten { $below } und { $above }; einige fehlen vielleicht, und die Oberfläche ist dort gestreckt.
 scan-dicom-squeeze = Die Schichten haben keinen gleichmäßigen Abstand: meist { $usual } mm, aber { $there } mm zwischen den Schichten { $below } und { $above }; die Oberfläche ist dort gestaucht.
+
+## Was die Volumen einer Serie unterscheidet: hinter einem Doppelpunkt, und vor seinem Wert
+
+scan-by-time = zeitliche Position
+scan-by-heart-phase = Herzphase
+scan-by-trigger = Triggerzeit
+scan-by-echo = Echo
+scan-by-b-value = b-Wert
+scan-by-image-type = Bildart
+scan-by-stack = Stapel
+scan-by-acquisition = Nummer der Aufnahme
+scan-by-thickness = Schichtdicke
+scan-by-kernel = Faltungskern
+scan-by-voltage = Röhrenspannung
+scan-by-reference-frame = Bezugssystem
+scan-by-moment = Zeitpunkt
+scan-by-order = Nummern der Schichten
+scan-by-place = Lage der Schichten
+scan-by-several = mehrere Felder
+scan-by-segment = Segment
+scan-by-layer = Ebene
 
 ## Der Browser
 

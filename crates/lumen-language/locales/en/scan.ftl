@@ -15,6 +15,15 @@ scan-spacing-help = Between columns, rows and slices
 scan-values = Values
 # $unit is empty, or a space and "HU".
 scan-values-range = { $low } to { $high }{ $unit }
+# Which of several volumes in the files, such as phases of a heart.
+scan-volume = Volume
+scan-volume-help = Which of the volumes in the files is shown; another is read anew
+# One of them: what tells it from the others, or its series, and how many slices it has.
+scan-volume-offer = { $slices ->
+    [one] { $what } ({ $slices } slice)
+   *[other] { $what } ({ $slices } slices)
+}
+scan-volume-series = series { $number }
 scan-threshold = Threshold
 scan-threshold-help = What has this value and more is the vessel; contrast-filled vessels in CT have 150 to 500 HU.
 # For assistive tools.
@@ -24,6 +33,7 @@ scan-vessel = Vessel
 scan-vessel-help = Which label of the mask is the vessel
 scan-vessel-label = Label of the vessel
 scan-label = Label { $label }
+scan-label-named = Label { $label }: { $name }
 scan-all-labels = All labels
 # The part of the scan that is looked at.
 scan-box = Box

@@ -12,6 +12,13 @@ scan-spacing = Pas
 scan-spacing-help = Entre les colonnes, les lignes et les coupes
 scan-values = Valeurs
 scan-values-range = { $low } à { $high }{ $unit }
+scan-volume = Volume
+scan-volume-help = Lequel des volumes des fichiers est montré ; un autre est lu à nouveau
+scan-volume-offer = { $slices ->
+    [one] { $what } ({ $slices } coupe)
+   *[other] { $what } ({ $slices } coupes)
+}
+scan-volume-series = série { $number }
 scan-threshold = Seuil
 scan-threshold-help = Ce qui a cette valeur ou plus est le vaisseau ; les vaisseaux opacifiés au scanner ont de 150 à 500 HU.
 scan-histogram = Histogramme, avec le seuil
@@ -19,6 +26,7 @@ scan-vessel = Vaisseau
 scan-vessel-help = Quelle étiquette du masque est le vaisseau
 scan-vessel-label = Étiquette du vaisseau
 scan-label = Étiquette { $label }
+scan-label-named = Étiquette { $label } : { $name }
 scan-all-labels = Toutes
 scan-box = Cadre
 scan-box-help = Seuls ces voxels sont examinés : ce qui est en dehors, comme les os, est omis
@@ -117,6 +125,7 @@ scan-known-range = c'est un scan aux valeurs de { $low } à { $high }
 scan-known-labels = il a { $labels }
 scan-outside-box = Le cadre ne contient rien du volume, qui a { $size } voxels.
 scan-slice-too-large = Une coupe a { $points } voxels, dont { $limit } peuvent être traités : placer un cadre autour des vaisseaux.
+scan-all-one-side = Il n'y a pas de surface : tout le volume se trouve du même côté.
 scan-one-side = Il n'y a pas de surface dans le cadre : tout se trouve du même côté.
 scan-too-many-triangles = La surface a plus de { $limit } triangles, pour la plupart du bruit ou des os : relever le seuil ou placer un cadre autour des vaisseaux.
 
@@ -133,6 +142,14 @@ scan-points = Le volume a { $points } points et { $samples } nombres pour ceux-c
 
 scan-no-volume = « { $name } » n'est pas un volume que Lumen connaît : il ouvre les fichiers NIfTI, NRRD, MetaImage et VTI et les séries DICOM.
 scan-data-elsewhere = L'en-tête { $format } garde ses nombres dans le fichier « { $name } » : ouvrir les deux ensemble.
+scan-dicom-mixed = { $places ->
+    [one] Plusieurs coupes se trouvent à une même place, et rien dans les fichiers ne dit à quel volume chacune appartient : ouvrez les fichiers d'un seul volume.
+   *[other] Plusieurs coupes se trouvent à chacune de { $places } places, et rien dans les fichiers ne dit à quel volume chacune appartient : ouvrez les fichiers d'un seul volume.
+}
+scan-no-such-volume = { $count ->
+    [one] Il n'y a pas de volume { $number } : les fichiers n'en contiennent qu'un.
+   *[other] Il n'y a pas de volume { $number } : les fichiers en contiennent { $count }.
+}
 scan-too-large = Le volume est trop grand : ses nombres prennent { $bytes } octets, et Lumen peut en prendre { $limit }.
 scan-volume-memory = Il n'y a pas assez de mémoire pour les { $bytes } octets du volume.
 scan-no-memory = Il n'y a pas assez de mémoire ici pour lire { $mb } Mo.
@@ -144,6 +161,9 @@ scan-unreadable = { $path } est illisible
 scan-silent = Le fichier { $format } ne dit pas comment le patient est orienté : les axes sont inconnus.
 scan-silent-format = { $format } ne dit pas comment le patient est orienté : les axes sont inconnus.
 scan-unknown-unit = L'unité de longueur du fichier { $format }, { $unit }, n'est pas connue : elle est prise pour des mm.
+scan-nifti-no-matrix = La matrice (sform) du fichier NIfTI n'en est pas une, bien qu'elle doive servir : son quaternion (qform) est pris.
+scan-nifti-no-place = La matrice (sform) du fichier NIfTI n'en est pas une, et il n'a pas de quaternion (qform) : ses espacements sont pris.
+scan-nifti-spacings = Le fichier NIfTI se contredit : selon sa matrice (sform) les voxels sont à { $matrix } mm, selon ses espacements à { $stated } mm. La matrice est prise.
 
 ## Ce qui ne va pas dans un fichier
 
@@ -169,7 +189,7 @@ scan-dicom-single = il ne contient qu'une coupe, et une surface en demande deux 
 scan-vti-wrong = « { $name } » est faux
 scan-vti-no-element = il n'a pas d'élément « { $name } »
 scan-vti-no-points = il ne dit pas combien de points il y a
-scan-vti-no-array = il n'a pas de tableau d'un nombre par point
+scan-vti-no-array = il n'a pas de tableau d'un nombre par point ou par cellule
 
 ## Ce qui n'est pas lu : derrière « utilise »
 
@@ -193,9 +213,10 @@ scan-dicom-unreadable = { $count ->
    *[other] { $count } coupes ne peuvent pas être lues et sont omises. { $why }
 }
 scan-dicom-same-place = { $count ->
-    [one] { $count } coupe se trouve à la place d'une autre : de chaque place, la première est prise.
-   *[other] { $count } coupes se trouvent à la place d'une autre : de chaque place, la première est prise.
+    [one] Une coupe est présente deux fois, à la même place et avec les mêmes pixels : une seule est prise.
+   *[other] { $count } coupes sont présentes deux fois, à la même place et avec les mêmes pixels : une seule de chaque est prise.
 }
+scan-volumes = Les fichiers contiennent { $count } volumes d'une même série, distingués par : { $by } ; chacun avec son nombre de coupes : { $list }. Le volume ouvert est { $taken }.
 scan-dicom-series = { $others ->
     [one] Les fichiers contiennent { $count } séries : celle qui a le plus de coupes, { $taken }, est prise, et { $slices } de l'autre sont omises.
    *[other] Les fichiers contiennent { $count } séries : celle qui a le plus de coupes, { $taken }, est prise, et { $slices } de { $others } autres sont omises.
@@ -206,6 +227,27 @@ scan-dicom-no-slices = { $count ->
 }
 scan-dicom-gap = Les coupes ne sont pas régulièrement espacées : le plus souvent { $usual } mm, mais { $there } mm entre les coupes { $below } et { $above } ; il en manque peut-être, et la surface y est étirée.
 scan-dicom-squeeze = Les coupes ne sont pas régulièrement espacées : le plus souvent { $usual } mm, mais { $there } mm entre les coupes { $below } et { $above } ; la surface y est comprimée.
+
+## Ce qui distingue les volumes d'une série : derrière deux-points, et devant sa valeur
+
+scan-by-time = position temporelle
+scan-by-heart-phase = phase cardiaque
+scan-by-trigger = temps de déclenchement
+scan-by-echo = écho
+scan-by-b-value = valeur b
+scan-by-image-type = type d'image
+scan-by-stack = pile
+scan-by-acquisition = numéro d'acquisition
+scan-by-thickness = épaisseur de coupe
+scan-by-kernel = noyau de convolution
+scan-by-voltage = tension du tube
+scan-by-reference-frame = repère
+scan-by-moment = moment
+scan-by-order = numéros des coupes
+scan-by-place = positions des coupes
+scan-by-several = plusieurs champs
+scan-by-segment = segment
+scan-by-layer = couche
 
 ## Le navigateur
 

@@ -47,7 +47,7 @@ fn is_laid_out_in(language: Language, screen: Screen) {
     }
     harness.key_press(Key::M);
     harness.run_steps(4);
-    let bytes = b"# vtk DataFile Version 3.0\nct\nBINARY\nDATASET STRUCTURED_POINTS\n".to_vec();
+    let bytes = b"# vtk DataFile Version 3.0\nct\nBINARY\nDATASET RECTILINEAR_GRID\n".to_vec();
     memory
         .borrow_mut()
         .events

@@ -1,9 +1,11 @@
 //! One file of DICOM: what it says about its slices, and where their pixels stand.
 //!
-//! DICOM PS3.5 (data structures and encoding) and PS3.10 (the file). The elements are walked by `dicom-parser`, on which
-//! `dicom-object` stands, one by one and without their values: `dicom-object` itself keeps every element, the patient's name
-//! among them, and fills as much memory as an element claims to be long. A value is looked at in the bytes of the file, if it
-//! is one that is wanted and lies within them.
+//! DICOM PS3.5 (data structures and encoding), PS3.10 (the file) and PS3.3 C.7.6.16 (what is said of each frame). The elements
+//! are walked by `dicom-parser`, on which `dicom-object` stands, one by one and without their values: `dicom-object` itself
+//! keeps every element, the patient's name among them, and fills as much memory as an element claims to be long. A value is
+//! looked at in the bytes of the file, if it is one that is wanted and lies within them.
+//!
+//! The file's own elements are read by hand: many writers leave out their length, or get it wrong, or leave them out altogether.
 
 use std::io::Cursor;
 
@@ -15,39 +17,16 @@ use dicom_parser::stateful::decode::StatefulDecode;
 use dicom_transfer_syntax_registry::entries;
 use glam::DVec3;
 
+use super::super::super::detect::{self, DataSet};
 use super::super::super::error::Feature;
 use super::super::super::problem::DicomProblem;
 use super::super::error::ScanError;
+use super::tags;
 
 pub(super) const FORMAT: &str = "DICOM";
 
-/// The file's own elements begin here, behind 128 bytes and "DICM".
-const META: usize = 132;
 /// Sequences in sequences are followed so deep.
 const DEEPEST: usize = 32;
-
-const TRANSFER_SYNTAX: Tag = Tag(0x0002, 0x0010);
-const MODALITY: Tag = Tag(0x0008, 0x0060);
-const THICKNESS: Tag = Tag(0x0018, 0x0050);
-const BETWEEN: Tag = Tag(0x0018, 0x0088);
-const SERIES: Tag = Tag(0x0020, 0x000E);
-const INSTANCE: Tag = Tag(0x0020, 0x0013);
-const POSITION: Tag = Tag(0x0020, 0x0032);
-const ORIENTATION: Tag = Tag(0x0020, 0x0037);
-const SAMPLES: Tag = Tag(0x0028, 0x0002);
-const PHOTOMETRIC: Tag = Tag(0x0028, 0x0004);
-const FRAMES: Tag = Tag(0x0028, 0x0008);
-const ROWS: Tag = Tag(0x0028, 0x0010);
-const COLUMNS: Tag = Tag(0x0028, 0x0011);
-const SPACING: Tag = Tag(0x0028, 0x0030);
-const ALLOCATED: Tag = Tag(0x0028, 0x0100);
-const STORED: Tag = Tag(0x0028, 0x0101);
-const SIGNED: Tag = Tag(0x0028, 0x0103);
-const INTERCEPT: Tag = Tag(0x0028, 0x1052);
-const SLOPE: Tag = Tag(0x0028, 0x1053);
-const SHARED_GROUPS: Tag = Tag(0x5200, 0x9229);
-const FRAME_GROUPS: Tag = Tag(0x5200, 0x9230);
-const PIXELS: Tag = Tag(0x7FE0, 0x0010);
 
 /// How pixels are packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,35 +35,41 @@ pub(super) enum Packing {
     Big,
     Rle,
     Jpeg,
+    Jpeg2000,
 }
+
+/// What an element says.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Value<'a> {
+    tag: Tag,
+    vr: VR,
+    bytes: &'a [u8],
+    is_big_endian: bool,
+}
+
+/// Elements one after another.
+type Values<'a> = Vec<Value<'a>>;
 
 /// What a file says; zeros and `None` where it does not.
 #[derive(Clone, Debug, Default)]
 pub(super) struct File<'a> {
     pub(super) packing: Option<Packing>,
-    pub(super) modality: String,
-    /// The series' number in the whole world, to tell it from others.
-    pub(super) series: String,
-    pub(super) instance: f64,
     pub(super) rows: usize,
     pub(super) columns: usize,
     pub(super) frames: usize,
-    pub(super) samples_per_pixel: u16,
-    pub(super) is_monochrome: bool,
     pub(super) bits_allocated: u16,
     pub(super) bits_stored: u16,
     pub(super) is_signed: bool,
-    pub(super) slope: Option<f64>,
-    pub(super) intercept: Option<f64>,
-    /// The centre of the first pixel of each frame in mm.
-    pub(super) positions: Vec<DVec3>,
-    /// The directions in which columns and rows are counted.
-    pub(super) orientation: Option<[DVec3; 2]>,
-    /// Distance between rows, and between columns.
-    pub(super) spacing: Option<[f64; 2]>,
-    /// Distance between slices, or their thickness.
-    pub(super) between: Option<f64>,
-    thickness: Option<f64>,
+    /// Whether pixels are floats.
+    pub(super) is_float: bool,
+    /// What it says of all its frames.
+    own: Values<'a>,
+    /// The same, in the place that is meant for it.
+    shared: Values<'a>,
+    /// What it says of one frame each.
+    each: Vec<Values<'a>>,
+    /// What it says of each of its segments.
+    segments: Vec<Values<'a>>,
     /// The pixels, or the fragments that they are packed into.
     pub(super) pixels: Vec<&'a [u8]>,
 }
@@ -92,68 +77,231 @@ pub(super) struct File<'a> {
 impl<'a> File<'a> {
     /// Walks through a file.
     pub(super) fn parse(bytes: &'a [u8]) -> Result<Self, ScanError> {
-        let mut file = Self { frames: 1, samples_per_pixel: 1, ..Self::default() };
-        // The first element says how long the others of its group are.
-        let length = bytes.get(META + 8..META + 12).and_then(|length| length.first_chunk().copied());
-        let length = length.map_or(0, u32::from_le_bytes) as usize;
-        let start = META + 12 + length;
-        let (Some(meta), Some(rest)) = (bytes.get(META..start), bytes.get(start..)) else {
-            return Err(ScanError::malformed(FORMAT, DicomProblem::Header));
-        };
-        let mut syntax = String::new();
-        walk(meta, &entries::EXPLICIT_VR_LITTLE_ENDIAN.erased(), |_, tag, value| {
-            if tag == TRANSFER_SYNTAX {
-                syntax = text(value);
-            }
-        })?;
-        let (packing, encoding) = packing(&syntax)?;
-        file.packing = Some(packing);
+        let (syntax, rest) = meta(bytes);
+        let (packing, encoding) = packing(&syntax, rest)?;
+        let mut file = Self { packing: Some(packing), ..Self::default() };
         let is_big_endian = packing == Packing::Big;
-        walk(rest, &encoding, |groups, tag, value| file.take(groups, tag, value, is_big_endian))?;
-        file.between = file.between.or(file.thickness);
+        walk(rest, &encoding, |path, item, tag, vr, bytes| {
+            file.take(path, item, Value { tag, vr, bytes, is_big_endian });
+        })?;
+        let whole = |tag| find(&file.own, tag).map_or(0, Value::short);
+        let (rows, columns, allocated, stored) =
+            (whole(tags::ROWS), whole(tags::COLUMNS), whole(tags::ALLOCATED), whole(tags::STORED));
+        file.is_signed = whole(tags::SIGNED) == 1;
+        (file.rows, file.columns, file.bits_allocated, file.bits_stored) =
+            (rows.into(), columns.into(), allocated, stored);
+        file.frames = file.own(tags::FRAMES).and_then(Value::number).map_or(1, |frames| frames as usize).max(1);
         Ok(file)
     }
 
-    /// Takes what an element says, which stands in the file itself or in the `groups` of its frames.
-    fn take(&mut self, groups: Option<Tag>, tag: Tag, value: &'a [u8], is_big_endian: bool) {
-        let short = || {
-            let word = value.first_chunk().copied().unwrap_or_default();
-            if is_big_endian { u16::from_be_bytes(word) } else { u16::from_le_bytes(word) }
-        };
-        match tag {
-            POSITION => self.positions.extend(decimals(value).map(DVec3::from)),
-            ORIENTATION => {
-                let six = decimals::<6>(value).map(|[a, b, c, d, e, f]| [DVec3::new(a, b, c), DVec3::new(d, e, f)]);
-                self.orientation = self.orientation.or(six);
+    /// Takes an element that is in these sequences, in item `item` of the outermost.
+    fn take(&mut self, path: &[Tag], item: usize, value: Value<'a>) {
+        let tag = value.tag;
+        match *path {
+            [] if matches!(tag, tags::PIXELS | tags::FLOAT_PIXELS | tags::DOUBLE_PIXELS) => {
+                self.is_float |= tag != tags::PIXELS;
+                self.pixels.push(value.bytes);
             }
-            SPACING => self.spacing = self.spacing.or(decimals(value)),
-            BETWEEN => self.between = self.between.or(decimal(value)),
-            THICKNESS => self.thickness = self.thickness.or(decimal(value)),
-            SLOPE => self.slope = self.slope.or(decimal(value)),
-            INTERCEPT => self.intercept = self.intercept.or(decimal(value)),
-            _ if groups.is_some() => {}
-            MODALITY => self.modality = text(value),
-            SERIES => self.series = text(value),
-            INSTANCE => self.instance = decimal(value).unwrap_or_default(),
-            SAMPLES => self.samples_per_pixel = short(),
-            PHOTOMETRIC => self.is_monochrome = value.starts_with(b"MONOCHROME"),
-            FRAMES => self.frames = decimal(value).map_or(1, |frames| frames as usize).max(1),
-            ROWS => self.rows = short().into(),
-            COLUMNS => self.columns = short().into(),
-            ALLOCATED => self.bits_allocated = short(),
-            STORED => self.bits_stored = short(),
-            SIGNED => self.is_signed = short() == 1,
-            PIXELS => self.pixels.push(value),
+            [] if tags::OWN.contains(&tag) => self.own.push(value),
+            [tags::SHARED_GROUPS, group] if tags::GROUPED.contains(&(group, tag)) => self.shared.push(value),
+            [tags::FRAME_GROUPS, group] if tags::GROUPED.contains(&(group, tag)) => {
+                item_of(&mut self.each, item).push(value);
+            }
+            [tags::SEGMENTS] if tags::OF_SEGMENT.contains(&tag) => item_of(&mut self.segments, item).push(value),
             _ => {}
+        }
+    }
+
+    /// What the file itself says.
+    pub(super) fn own(&self, tag: Tag) -> Option<Value<'a>> {
+        find(&self.own, tag)
+    }
+
+    /// What the file says of a frame: of that alone, else of all of them.
+    pub(super) fn value(&self, frame: usize, tag: Tag) -> Option<Value<'a>> {
+        self.of_frame(frame, tag).or_else(|| find(&self.shared, tag)).or_else(|| self.own(tag))
+    }
+
+    fn of_frame(&self, frame: usize, tag: Tag) -> Option<Value<'a>> {
+        find(self.each.get(frame)?, tag)
+    }
+
+    pub(super) fn number(&self, frame: usize, tag: Tag) -> Option<f64> {
+        self.value(frame, tag)?.number()
+    }
+
+    pub(super) fn text(&self, tag: Tag) -> String {
+        self.own(tag).map_or_else(String::new, Value::text)
+    }
+
+    /// The centre of the first pixel of a frame in mm. Frames on top of each other may have the first one's place alone, and
+    /// a distance between them.
+    pub(super) fn position(&self, frame: usize, normal: DVec3) -> Option<DVec3> {
+        let place = |value: Value| value.decimals().map(DVec3::from);
+        if let Some(position) = self.of_frame(frame, tags::POSITION) {
+            return place(position);
+        }
+        let first = place(self.value(0, tags::POSITION)?)?;
+        if self.frames == 1 {
+            return Some(first);
+        }
+        // A file that says where some frames are and not where this one is.
+        if self.each.iter().any(|values| find(values, tags::POSITION).is_some()) {
+            return None;
+        }
+        let between = self.number(0, tags::BETWEEN).or_else(|| self.number(0, tags::THICKNESS))?;
+        Some(first + normal * (between * frame as f64))
+    }
+
+    /// The directions in which the columns and the rows of a frame are counted.
+    pub(super) fn orientation(&self, frame: usize) -> Option<[DVec3; 2]> {
+        let [a, b, c, d, e, f] = self.value(frame, tags::ORIENTATION)?.decimals()?;
+        Some([DVec3::new(a, b, c), DVec3::new(d, e, f)])
+    }
+
+    /// Distance between the rows of a frame, and between its columns.
+    pub(super) fn spacing(&self, frame: usize) -> Option<[f64; 2]> {
+        self.value(frame, tags::SPACING)?.decimals()
+    }
+
+    /// Slope and intercept of a frame.
+    pub(super) fn rescale(&self, frame: usize) -> (f64, f64) {
+        let number = |tag, default| self.number(frame, tag).unwrap_or(default);
+        (number(tags::SLOPE, 1.0), number(tags::INTERCEPT, 0.0))
+    }
+
+    /// Whether it holds slices in shades of grey, or segments.
+    pub(super) fn holds_slices(&self) -> bool {
+        let is_grey = self.own(tags::PHOTOMETRIC).is_some_and(|kind| {
+            kind.bytes.starts_with(b"MONOCHROME") || (self.is_segmentation() && kind.bytes.starts_with(b"PALETTE"))
+        });
+        let samples = self.own(tags::SAMPLES).map_or(1, Value::short);
+        !self.pixels.is_empty() && is_grey && samples == 1 && self.rows * self.columns > 0
+    }
+
+    /// Whether its pixels say which segment they are of.
+    pub(super) fn is_segmentation(&self) -> bool {
+        self.own(tags::SEGMENTATION_TYPE).is_some()
+    }
+
+    /// Number and name of each segment.
+    pub(super) fn segments(&self) -> impl Iterator<Item = (u16, String)> {
+        self.segments.iter().filter_map(|values| {
+            let number = find(values, tags::SEGMENT_NUMBER)?.short();
+            Some((number, find(values, tags::SEGMENT_LABEL).map_or_else(String::new, Value::text)))
+        })
+    }
+
+    /// The frames that there are, which are no more than the bytes of the file can hold: packed ones have a fragment each.
+    pub(super) fn held_frames(&self) -> usize {
+        /// Frames of fewer bits are none.
+        const LEAST: usize = 64;
+        let bits = (self.rows * self.columns).saturating_mul(self.bits_allocated.into()).max(LEAST);
+        let bytes: usize = self.pixels.iter().map(|fragment| fragment.len()).sum();
+        self.frames.min(self.pixels.len().max(bytes.saturating_mul(8) / bits).max(self.each.len()))
+    }
+}
+
+/// The list of an item of a sequence, whose items come in order; those without anything of use count, too.
+fn item_of<'l, 'a>(items: &'l mut Vec<Values<'a>>, item: usize) -> &'l mut Values<'a> {
+    if items.len() <= item {
+        items.resize(item + 1, Vec::new());
+    }
+    &mut items[item]
+}
+
+fn find<'a>(values: &[Value<'a>], tag: Tag) -> Option<Value<'a>> {
+    values.iter().find(|value| value.tag == tag && !value.bytes.is_empty()).copied()
+}
+
+impl Value<'_> {
+    /// As a whole number of 16 bits.
+    pub(super) fn short(self) -> u16 {
+        let word = self.bytes.first_chunk().copied().unwrap_or_default();
+        if self.is_big_endian { u16::from_be_bytes(word) } else { u16::from_le_bytes(word) }
+    }
+
+    /// The first number in it.
+    pub(super) fn number(self) -> Option<f64> {
+        fn word<const N: usize>(value: Value) -> Option<[u8; N]> {
+            let mut word = *value.bytes.first_chunk()?;
+            if value.is_big_endian {
+                word.reverse();
+            }
+            Some(word)
+        }
+        match self.vr {
+            VR::US => Some(self.short().into()),
+            VR::SS => Some((self.short() as i16).into()),
+            VR::UL => word(self).map(|word| u32::from_le_bytes(word).into()),
+            VR::SL => word(self).map(|word| i32::from_le_bytes(word).into()),
+            VR::FL => word(self).map(|word| f32::from_le_bytes(word).into()),
+            VR::FD => word(self).map(f64::from_le_bytes),
+            _ => number(self.bytes.split(|&byte| byte == b'\\').next()?),
+        }
+        .filter(|number| number.is_finite())
+    }
+
+    /// `N` decimal numbers; `None` where there are not as many, or more.
+    fn decimals<const N: usize>(self) -> Option<[f64; N]> {
+        let mut words = self.bytes.split(|&byte| byte == b'\\');
+        let mut found = [0.0; N];
+        for number in &mut found {
+            *number = self::number(words.next()?)?;
+        }
+        words.next().is_none().then_some(found)
+    }
+
+    /// As words, without what pads them.
+    pub(super) fn text(self) -> String {
+        match self.vr {
+            VR::US | VR::SS | VR::UL | VR::SL | VR::FL | VR::FD => {
+                self.number().map_or_else(String::new, |number| number.to_string())
+            }
+            _ => text(self.bytes),
         }
     }
 }
 
-/// How the pixels of a transfer syntax are packed, and how its elements are encoded.
-fn packing(syntax: &str) -> Result<(Packing, TransferSyntax), ScanError> {
+/// The transfer syntax, empty where nothing says it, and the elements behind the file's own.
+fn meta(bytes: &[u8]) -> (String, &[u8]) {
+    let mut rest = detect::behind_preamble(bytes);
+    let mut syntax = String::new();
+    while let [2, 0, low, high, a, b, ..] = *rest {
+        // Explicit, as the standard has it, or as some write it.
+        let (length, at) = match [a, b] {
+            [b'O', b'B' | b'W'] | [b'U', b'N' | b'T'] | [b'S', b'Q'] => (rest.get(8..12).map(long), 12),
+            [b'A'..=b'Z', b'A'..=b'Z'] => {
+                (rest.get(6..8).map(|short| usize::from(short[0]) | usize::from(short[1]) << 8), 8)
+            }
+            _ => (rest.get(4..8).map(long), 8),
+        };
+        let end = length.and_then(|length| length.checked_add(at));
+        let Some(value) = end.and_then(|end| rest.get(at..end)) else { break };
+        if [low, high] == [0x10, 0] {
+            syntax = text(value);
+        }
+        rest = &rest[at + value.len()..];
+    }
+    (syntax, rest)
+}
+
+fn long(bytes: &[u8]) -> usize {
+    bytes.first_chunk().map_or(0, |&word| u32::from_le_bytes(word) as usize)
+}
+
+/// How the pixels of a transfer syntax are packed, and how its elements are encoded. What the elements look like counts where
+/// nothing is said, and where it is not so: some write the one uncompressed syntax and name the other.
+fn packing(syntax: &str, data_set: &[u8]) -> Result<(Packing, TransferSyntax), ScanError> {
     let explicit = entries::EXPLICIT_VR_LITTLE_ENDIAN.erased();
     let refused = |what: Feature| Err(ScanError::unsupported(FORMAT, what));
-    match syntax.strip_prefix("1.2.840.10008.1.2").unwrap_or("?") {
+    let looks = detect::data_set(data_set);
+    match syntax.strip_prefix("1.2.840.10008.1.2").unwrap_or(if syntax.is_empty() { "" } else { "?" }) {
+        "" | ".1" if looks == Some(DataSet::Implicit) => {
+            Ok((Packing::Little, entries::IMPLICIT_VR_LITTLE_ENDIAN.erased()))
+        }
+        "" | ".1" if looks == Some(DataSet::Explicit) => Ok((Packing::Little, explicit)),
+        "" | ".1" if looks == Some(DataSet::BigEndian) => Ok((Packing::Big, entries::EXPLICIT_VR_BIG_ENDIAN.erased())),
         "" => Ok((Packing::Little, entries::IMPLICIT_VR_LITTLE_ENDIAN.erased())),
         ".1" => Ok((Packing::Little, explicit)),
         ".2" => Ok((Packing::Big, entries::EXPLICIT_VR_BIG_ENDIAN.erased())),
@@ -161,47 +309,57 @@ fn packing(syntax: &str) -> Result<(Packing, TransferSyntax), ScanError> {
         ".4.50" | ".4.51" | ".4.57" | ".4.70" => Ok((Packing::Jpeg, explicit)),
         ".1.99" => refused(Feature::Deflated),
         ".4.80" | ".4.81" => refused(Feature::JpegLs),
-        ".4.90" | ".4.91" | ".4.201" | ".4.202" | ".4.203" => refused(Feature::Jpeg2000),
+        ".4.90" | ".4.91" => Ok((Packing::Jpeg2000, explicit)),
+        // Of several components, and of high throughput.
+        ".4.92" | ".4.93" | ".4.201" | ".4.202" | ".4.203" => refused(Feature::Jpeg2000),
         _ => refused(Feature::UnknownCompression),
     }
 }
 
-/// Hands each value that lies in a data set itself, or in the groups of its frames, to `take`: in which groups, its tag, and
-/// its bytes; the fragments of packed pixels one by one, their table of offsets left out.
+/// Hands each value to `take`: the sequences that it is in, the number of the outermost one's item, its tag, its kind and its
+/// bytes; the fragments of packed pixels one by one, their table of offsets left out.
 fn walk<'a>(
     bytes: &'a [u8],
     encoding: &TransferSyntax,
-    mut take: impl FnMut(Option<Tag>, Tag, &'a [u8]),
+    mut take: impl FnMut(&[Tag], usize, Tag, VR, &'a [u8]),
 ) -> Result<(), ScanError> {
     let broken = || ScanError::malformed(FORMAT, DicomProblem::Damaged);
     let mut reader = LazyDataSetReader::new_with_ts(Cursor::new(bytes), encoding).map_err(|_| broken())?;
-    // The sequences that are open, and the items in them.
-    let mut open: Vec<Option<Tag>> = Vec::new();
-    // Items of the pixels so far; the first is a table of offsets, often empty.
-    let mut items = 0;
+    // The sequences that are open, whether an item in the last of them is, and the items so far of the outermost; of pixels the
+    // first is a table of offsets, often empty.
+    let (mut path, mut open, mut items) = (Vec::<Tag>::new(), Vec::new(), 0);
     while let Some(token) = reader.advance() {
         match token.map_err(|_| broken())? {
-            LazyDataToken::SequenceStart { tag, .. } => open.push(Some(tag)),
-            LazyDataToken::PixelSequenceStart => open.push(Some(PIXELS)),
-            LazyDataToken::ItemStart { .. } => {
-                items += usize::from(open == [Some(PIXELS)]);
-                open.push(None);
+            LazyDataToken::SequenceStart { tag, .. } => {
+                items = if path.is_empty() { 0 } else { items };
+                path.push(tag);
+                open.push(false);
             }
-            // The reader panics at what follows an end that nothing began.
-            LazyDataToken::SequenceEnd | LazyDataToken::ItemEnd if open.pop().is_none() => return Err(broken()),
+            LazyDataToken::PixelSequenceStart => {
+                items = 0;
+                path.push(tags::PIXELS);
+                open.push(false);
+            }
+            LazyDataToken::ItemStart { .. } => {
+                items += usize::from(path.len() == 1);
+                open.push(true);
+            }
+            LazyDataToken::SequenceEnd | LazyDataToken::ItemEnd => match open.pop() {
+                Some(true) => {}
+                Some(false) => drop(path.pop()),
+                // The reader panics at what follows an end that nothing began.
+                None => return Err(broken()),
+            },
             LazyDataToken::LazyValue { header, decoder } => {
                 let value = value(bytes, decoder.position(), header.len.0).ok_or_else(cut_short)?;
                 decoder.skip_bytes(header.len.0).map_err(|_| broken())?;
-                let groups = open.first().copied().flatten();
-                if groups.is_none() || (matches!(groups, Some(SHARED_GROUPS | FRAME_GROUPS)) && header.vr != VR::SQ) {
-                    take(groups, header.tag, value);
-                }
+                take(&path, items.saturating_sub(1), header.tag, header.vr, value);
             }
             LazyDataToken::LazyItemValue { len, decoder } => {
                 let value = value(bytes, decoder.position(), len).ok_or_else(cut_short)?;
                 decoder.skip_bytes(len).map_err(|_| broken())?;
-                if items > 1 && open.first() == Some(&Some(PIXELS)) {
-                    take(None, PIXELS, value);
+                if items > 1 && path == [tags::PIXELS] {
+                    take(&[], 0, tags::PIXELS, VR::OB, value);
                 }
             }
             _ => {}
@@ -223,26 +381,13 @@ fn value(bytes: &[u8], position: u64, length: u32) -> Option<&[u8]> {
     bytes.get(start..start.checked_add(length as usize)?)
 }
 
-/// A value of letters, without its padding.
+/// A value of letters, without its padding, and not more than a name is long.
 fn text(value: &[u8]) -> String {
-    let end = value.iter().rposition(|byte| !matches!(byte, 0 | b' ')).map_or(0, |last| last + 1);
-    String::from_utf8_lossy(&value[..end.min(64)]).into_owned()
-}
-
-/// The first of some decimal numbers.
-fn decimal(value: &[u8]) -> Option<f64> {
-    let first = value.split(|&byte| byte == b'\\').next()?;
-    number(first)
-}
-
-/// `N` decimal numbers; `None` where there are not as many, or more.
-fn decimals<const N: usize>(value: &[u8]) -> Option<[f64; N]> {
-    let mut words = value.split(|&byte| byte == b'\\');
-    let mut found = [0.0; N];
-    for number in &mut found {
-        *number = self::number(words.next()?)?;
-    }
-    words.next().is_none().then_some(found)
+    const LONGEST: usize = 128;
+    let is_padding = |byte: &u8| matches!(byte, 0 | b' ');
+    let start = value.iter().position(|byte| !is_padding(byte)).unwrap_or(0);
+    let end = value.iter().rposition(|byte| !is_padding(byte)).map_or(0, |last| last + 1);
+    String::from_utf8_lossy(&value[start..end.min(start + LONGEST).max(start)]).into_owned()
 }
 
 fn number(word: &[u8]) -> Option<f64> {

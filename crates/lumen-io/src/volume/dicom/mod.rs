@@ -1,43 +1,54 @@
 //! DICOM: the slices of a series, one to a file in any order, or all in one file.
 //!
-//! Slices are put in order along their normal. Of several series, or of slices of other sizes or directions among them, those
-//! are taken of which there are most; a sentence tells of the rest by number alone. Files that cannot be read are left out and
-//! counted, as long as there are others. Nothing that names a patient is looked at, kept or reported, a file's name neither.
+//! Slices of one series, size, direction and spacing are taken apart into volumes (`volumes`) and put in order along their
+//! normal. Of several volumes the one of most slices is taken unless another is asked for; the rest is told by number and by
+//! what it differs in. Files that cannot be read are left out and counted, as long as there are others. Nothing that names a
+//! patient is looked at, kept or reported, a file's name neither.
 
 mod file;
 mod pixels;
+mod segments;
+mod tags;
+mod volumes;
 
 use glam::{DMat3, DVec3};
 
 use super::super::axes::Axes;
 use super::super::error::Feature;
 use super::super::numbers::Scalar;
+use super::super::offer::Offer;
 use super::super::problem::DicomProblem;
 use super::super::warnings::{ScanWarning, Warning};
 use super::error::ScanError;
 use super::numbers::Layout;
-use super::outline::Scan;
+use super::outline::{Offers, Scan};
 use super::parts::Part;
 use file::{FORMAT, File};
 use lumen_message::Message as _;
 use lumen_volume::{Geometry, Grid, Samples, VolumeError};
+use volumes::Volume;
 
 /// By so much of a mean distance two neighbours may be farther apart or closer than others.
 const UNEVEN: f64 = 0.05;
 /// By so much a direction may differ between slices of a series, and by so many mm two slices of one place.
 const SAME: f64 = 1e-3;
 
-/// A slice of the volume.
+/// A slice of a volume.
+#[derive(Clone, Copy)]
 struct Slice<'f, 'a> {
     file: &'f File<'a>,
     frame: usize,
     position: DVec3,
+    /// The directions in which columns and rows are counted.
+    orientation: [DVec3; 2],
+    /// Distance between rows, and between columns.
+    spacing: [f64; 2],
     /// Along the normal, in mm.
     height: f64,
 }
 
-/// Reads a series from the files of a folder.
-pub(super) fn read(parts: &[&Part]) -> Result<Scan, ScanError> {
+/// Reads a volume from the files of a folder: that of number `choice`, from 0, or the one of most slices.
+pub(super) fn read(parts: &[&Part], choice: Option<usize>) -> Result<Scan, ScanError> {
     let (mut files, mut unreadable) = (Vec::new(), Unreadable::default());
     for part in parts {
         match File::parse(part.bytes) {
@@ -48,27 +59,87 @@ pub(super) fn read(parts: &[&Part]) -> Result<Scan, ScanError> {
     if files.is_empty() {
         return Err(unreadable.into_error());
     }
-    let mut warnings = Vec::new();
-    let series = largest_series(&files, &mut warnings)?;
-    let first = series[0];
-    let [across, down] = first.orientation.ok_or_else(|| missing(DicomProblem::NoDirections))?;
-    let [between_rows, between_columns] = first.spacing.ok_or_else(|| missing(DicomProblem::NoSpacing))?;
-    let mut slices = placed(&series, across.cross(down), &mut unreadable);
-    slices.sort_by(|a, b| a.height.total_cmp(&b.height).then(a.file.instance.total_cmp(&b.file.instance)));
-    let all = slices.len();
-    slices.dedup_by(|next, kept| next.height - kept.height < SAME);
-    if slices.len() < all {
-        let more = all - slices.len();
-        warnings.push(ScanWarning::SamePlace { count: more }.into());
+    let empty = files.iter().filter(|file| !file.holds_slices()).count();
+    let series = series(&files, &mut unreadable);
+    if series.is_empty() {
+        return Err(if empty == files.len() { missing(DicomProblem::NoSlice) } else { unreadable.into_error() });
     }
-    let (samples, slope, intercept) = samples(&mut slices, &mut unreadable)?;
+    let sizes: Vec<usize> = series.iter().map(Vec::len).collect();
+    let volumes: Vec<(usize, Volume)> = series.into_iter().enumerate().flat_map(volumes_of).collect();
+    let offers = offers(&volumes);
+    let taken = choice.unwrap_or_else(|| offers.largest());
+    let mut volumes = volumes;
+    if taken >= volumes.len() {
+        return Err(ScanError::NoSuchVolume { number: taken + 1, count: volumes.len() });
+    }
+    let (number, volume) = volumes.swap_remove(taken);
+    let mut warnings = Vec::new();
+    if choice.is_none() {
+        warnings.extend(others(&sizes, number));
+        warnings.extend(offers.warning(number, taken));
+    }
+    if empty > 0 {
+        warnings.push(ScanWarning::NoSlices { count: empty }.into());
+    }
+    if volume.twice > 0 {
+        warnings.push(ScanWarning::SamePlace { count: volume.twice }.into());
+    }
+    if volume.mixed > 0 {
+        return Err(ScanError::Mixed { places: volume.mixed });
+    }
+    let mut scan = if segments::are(&volume.slices) {
+        segments::label_map(&volume)?
+    } else {
+        scan(volume.slices, &mut unreadable, &mut warnings)?
+    };
     warnings.extend(unreadable.warning());
-    let step = step(&slices, &mut warnings)?;
-    let size = [first.columns, first.rows, slices.len()];
-    let steps = DMat3::from_cols(across * between_columns, down * between_rows, step);
-    let geometry = Geometry::from_steps(size, steps, slices[0].position).map_err(VolumeError::from)?;
+    scan.warnings.splice(..0, warnings);
+    (scan.offers, scan.taken) = (offers.list, taken);
+    Ok(scan)
+}
+
+/// The volumes of a series, with its number.
+fn volumes_of<'f, 'a>((number, slices): (usize, Vec<Slice<'f, 'a>>)) -> Vec<(usize, Volume<'f, 'a>)> {
+    let volumes = if segments::are(&slices) { segments::split(slices) } else { volumes::split(slices) };
+    volumes.into_iter().map(|volume| (number, volume)).collect()
+}
+
+/// What the volumes are told by.
+fn offers(volumes: &[(usize, Volume)]) -> Offers {
+    let offer = |(series, volume): &(usize, Volume)| Offer {
+        series: *series,
+        slices: volume.places(),
+        by: volume.by.as_ref().map(|(field, _)| *field),
+        value: volume.by.as_ref().map_or_else(String::new, |(_, value)| value.clone()),
+    };
+    Offers { list: volumes.iter().map(offer).collect() }
+}
+
+/// What is told of the series beside number `taken`, of which there are so many slices each.
+fn others(sizes: &[usize], taken: usize) -> Option<Warning> {
+    let others = sizes.len() - 1;
+    let slices = sizes.iter().sum::<usize>() - sizes[taken];
+    (others > 0).then(|| ScanWarning::Series { count: others + 1, taken: sizes[taken], slices, others }.into())
+}
+
+/// The volume of slices.
+fn scan(mut slices: Vec<Slice>, unreadable: &mut Unreadable, warnings: &mut Vec<Warning>) -> Result<Scan, ScanError> {
+    let (samples, slope, intercept) = samples(&mut slices, unreadable)?;
+    let step = step(&slices, warnings)?;
+    let geometry = geometry(&slices[0], slices.len(), step)?;
     let grid = Grid::new(geometry, samples, slope, intercept)?;
-    Ok(Scan { grid, format: FORMAT, axes: Axes::Lps, is_ct: first.modality == "CT", warnings })
+    let mut scan = Scan::new(grid, FORMAT, Axes::Lps);
+    scan.is_ct = slices[0].file.text(tags::MODALITY) == "CT";
+    scan.names = slices[0].file.segments().map(|(number, name)| (number.into(), name)).collect();
+    Ok(scan)
+}
+
+/// Where a grid lies whose first slice is this one.
+fn geometry(first: &Slice, slices: usize, step: DVec3) -> Result<Geometry, ScanError> {
+    let ([across, down], [between_rows, between_columns]) = (first.orientation, first.spacing);
+    let steps = DMat3::from_cols(across * between_columns, down * between_rows, step);
+    let size = [first.file.columns, first.file.rows, slices];
+    Ok(Geometry::from_steps(size, steps, first.position).map_err(VolumeError::from)?)
 }
 
 /// Files and slices that cannot be read.
@@ -101,82 +172,48 @@ fn missing(what: DicomProblem) -> ScanError {
     ScanError::malformed(FORMAT, what)
 }
 
-/// The files that belong together, of which there are most images.
-fn largest_series<'f, 'a>(files: &'f [File<'a>], warnings: &mut Vec<Warning>) -> Result<Vec<&'f File<'a>>, ScanError> {
-    let mut groups: Vec<Vec<&File>> = Vec::new();
-    let holds_slices = |file: &&File| {
-        !file.pixels.is_empty() && file.is_monochrome && file.samples_per_pixel == 1 && file.rows * file.columns > 0
-    };
-    for file in files.iter().filter(holds_slices) {
-        match groups.iter_mut().find(|group| belong_together(group[0], file)) {
-            Some(group) => group.push(file),
-            None => groups.push(vec![file]),
+/// The slices of all files, each with its place, those of a kind together: images first, then segments.
+fn series<'f, 'a>(files: &'f [File<'a>], unreadable: &mut Unreadable) -> Vec<Vec<Slice<'f, 'a>>> {
+    let mut series: Vec<Vec<Slice>> = Vec::new();
+    for file in files.iter().filter(|file| file.holds_slices()) {
+        for frame in 0..file.held_frames() {
+            match placed(file, frame) {
+                Err(what) => unreadable.add(missing(what)),
+                // Most belong to the one before.
+                Ok(slice) => match series.iter_mut().rev().find(|group| belong_together(&group[0], &slice)) {
+                    Some(group) => group.push(slice),
+                    None => series.push(vec![slice]),
+                },
+            }
         }
     }
-    let images = |group: &[&File]| group.iter().map(|file| file.frames).fold(0, usize::saturating_add);
-    let others = groups.len().saturating_sub(1);
-    let taken = groups.iter().enumerate().max_by_key(|(number, group)| (images(group), std::cmp::Reverse(*number)));
-    let Some((number, _)) = taken else {
-        return Err(ScanError::malformed(FORMAT, DicomProblem::NoSlice));
-    };
-    let series = groups.swap_remove(number);
-    let slices = groups.iter().map(|group| images(group)).fold(0, usize::saturating_add);
-    let empty = files.iter().filter(|file| !holds_slices(file)).count();
-    if others > 0 {
-        let (count, taken, slices) = (others + 1, images(&series), slices);
-        warnings.push(ScanWarning::Series { count, taken, slices, others }.into());
-    }
-    if empty > 0 {
-        warnings.push(ScanWarning::NoSlices { count: empty }.into());
-    }
-    Ok(series)
+    series.sort_by_key(|group| group[0].file.is_segmentation());
+    series
 }
 
-/// Whether two files are slices of one volume.
-fn belong_together(a: &File, b: &File) -> bool {
-    let alike = |a: DVec3, b: DVec3| a.distance(b) < SAME;
-    let same_way = match (a.orientation, b.orientation) {
-        (Some(a), Some(b)) => alike(a[0], b[0]) && alike(a[1], b[1]),
-        (a, b) => a.is_none() && b.is_none(),
-    };
-    let form = |file: &File| (file.rows, file.columns, file.bits_allocated, file.is_signed);
-    let same_spacing = match (a.spacing, b.spacing) {
-        (Some(a), Some(b)) => a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME),
-        (a, b) => a.is_none() && b.is_none(),
-    };
-    a.series == b.series && same_way && same_spacing && form(a) == form(b)
+/// A frame with its place.
+fn placed<'f, 'a>(file: &'f File<'a>, frame: usize) -> Result<Slice<'f, 'a>, DicomProblem> {
+    let orientation = file.orientation(frame).ok_or(DicomProblem::NoDirections)?;
+    let spacing = file.spacing(frame).ok_or(DicomProblem::NoSpacing)?;
+    let normal = orientation[0].cross(orientation[1]);
+    let position = file.position(frame, normal).ok_or(DicomProblem::NoPlaces)?;
+    Ok(Slice { file, frame, position, orientation, spacing, height: position.dot(normal) })
 }
 
-/// The most frames that the bytes of a file can hold: packed ones have a fragment each.
-fn most_frames(file: &File) -> usize {
-    let frame = (file.rows * file.columns).saturating_mul(usize::from(file.bits_allocated)) / 8;
-    let bytes: usize = file.pixels.iter().map(|fragment| fragment.len()).sum();
-    file.pixels.len().max(bytes / frame.max(1))
+/// Whether two slices may be of one volume.
+fn belong_together(a: &Slice, b: &Slice) -> bool {
+    let same_way = a.orientation.iter().zip(b.orientation).all(|(a, b)| a.distance(b) < SAME);
+    let same_spacing = a.spacing.iter().zip(b.spacing).all(|(a, b)| (a - b).abs() < SAME);
+    let form = |file: &File| (file.rows, file.columns, file.bits_allocated, file.is_signed, file.is_segmentation());
+    let same_file = std::ptr::eq(a.file, b.file);
+    same_way
+        && same_spacing
+        && (same_file || form(a.file) == form(b.file) && a.file.text(tags::SERIES) == b.file.text(tags::SERIES))
 }
 
-/// The slices of all files, each with its place.
-fn placed<'f, 'a>(series: &[&'f File<'a>], normal: DVec3, unreadable: &mut Unreadable) -> Vec<Slice<'f, 'a>> {
-    let mut slices = Vec::new();
-    for &file in series {
-        if file.positions.len() == file.frames {
-            slices.extend(file.positions.iter().enumerate().map(|(frame, &position)| Slice {
-                file,
-                frame,
-                position,
-                height: position.dot(normal),
-            }));
-        } else if let (&[position], Some(between)) = (&file.positions[..], file.between) {
-            // Frames on top of each other, of which only the first has a place.
-            let frames = file.frames.min(most_frames(file));
-            slices.extend((0..frames).map(|frame| {
-                let position = position + normal * (between * frame as f64);
-                Slice { file, frame, position, height: position.dot(normal) }
-            }));
-        } else {
-            unreadable.add(missing(DicomProblem::NoPlaces));
-        }
-    }
-    slices
+/// Whether the pixels of two slices stand for the same values.
+fn same_pixels(a: &Slice, b: &Slice) -> bool {
+    a.file.rescale(a.frame) == b.file.rescale(b.frame) && matches!((trimmed(a), trimmed(b)), (Ok(a), Ok(b)) if a == b)
 }
 
 /// The mean step from a slice to the next, which a tilted gantry makes oblique.
@@ -213,17 +250,10 @@ fn samples(slices: &mut Vec<Slice>, unreadable: &mut Unreadable) -> Result<(Samp
         return Err(std::mem::take(unreadable).into_error());
     };
     let size = [first.columns, first.rows, slices.len()];
-    let rescale = |file: &File| (file.slope.unwrap_or(1.0), file.intercept.unwrap_or(0.0));
-    let scalar = match (first.bits_allocated, first.is_signed) {
-        (8, false) => Scalar::U8,
-        (8, true) => Scalar::I8,
-        (16, false) => Scalar::U16,
-        (16, true) => Scalar::I16,
-        (bits, _) => return Err(ScanError::unsupported(FORMAT, Feature::Bits { bits })),
-    };
-    let layout = Layout::new(FORMAT, size, scalar, false)?;
-    let (slope, intercept) = rescale(first);
-    let is_uniform = slices.iter().all(|slice| rescale(slice.file) == (slope, intercept));
+    let rescale = |slice: &Slice| slice.file.rescale(slice.frame);
+    let layout = Layout::new(FORMAT, size, scalar(first)?, false)?;
+    let (slope, intercept) = rescale(&slices[0]);
+    let is_uniform = slices.iter().all(|slice| rescale(slice) == (slope, intercept));
     let kept = if is_uniform { layout } else { Layout::new(FORMAT, size, Scalar::F32, false)? };
     let mut samples = kept.begin();
     let mut failed = None;
@@ -241,7 +271,7 @@ fn samples(slices: &mut Vec<Slice>, unreadable: &mut Unreadable) -> Result<(Samp
         let appended = if is_uniform {
             kept.append(&mut samples, &pixels)
         } else {
-            values(layout, &pixels, rescale(slice.file)).and_then(|values| kept.append(&mut samples, &values))
+            values(layout, &pixels, rescale(slice)).and_then(|values| kept.append(&mut samples, &values))
         };
         failed = appended.err();
         failed.is_none()
@@ -252,6 +282,21 @@ fn samples(slices: &mut Vec<Slice>, unreadable: &mut Unreadable) -> Result<(Samp
         (None, false) if is_uniform => Ok((samples, slope, intercept)),
         (None, false) => Ok((samples, 1.0, 0.0)),
     }
+}
+
+/// The type of a file's pixels.
+fn scalar(file: &File) -> Result<Scalar, ScanError> {
+    Ok(match (file.bits_allocated, file.is_float, file.is_signed) {
+        (32, true, _) => Scalar::F32,
+        (64, true, _) => Scalar::F64,
+        (1 | 8, false, false) => Scalar::U8,
+        (8, false, true) => Scalar::I8,
+        (16, false, false) => Scalar::U16,
+        (16, false, true) => Scalar::I16,
+        (32, false, false) => Scalar::U32,
+        (32, false, true) => Scalar::I32,
+        (bits, ..) => return Err(ScanError::unsupported(FORMAT, Feature::Bits { bits })),
+    })
 }
 
 /// The values that stored numbers stand for, as bytes of floats.

@@ -1,8 +1,10 @@
-//! The pixels of a frame: as they are, by run lengths (DICOM PS3.5, annex G), or as a JPEG picture.
+//! The pixels of a frame: as they are, by run lengths (DICOM PS3.5, annex G), or as a JPEG or JPEG 2000 picture.
 //!
 //! The codecs of `dicom-transfer-syntax-registry` are not used: where a picture is smaller than the file says, or a run ends
-//! early, they index beyond it and panic. Its JPEG decoder is used directly; run lengths are thirty lines.
+//! early, they index beyond it and panic. Its JPEG decoder is used directly; run lengths are thirty lines. JPEG 2000 is read by
+//! `hayro-jpeg2000`, which forbids unsafe code, as a bare codestream alone, which is all that DICOM has.
 
+use hayro_jpeg2000::{DecodeSettings, DecoderContext, Image};
 use jpeg_decoder::{Decoder, PixelFormat};
 
 use super::super::super::problem::DicomProblem;
@@ -12,19 +14,24 @@ use super::file::{FORMAT, File, Packing};
 
 /// The pixels of frame `frame` of a file, in little-endian order.
 pub(super) fn frame(file: &File, frame: usize) -> Result<Vec<u8>, ScanError> {
-    let size = file.bits_allocated as usize / 8;
+    let size = (file.bits_allocated as usize / 8).max(1);
     let bytes = file.rows * file.columns * size;
     let short = || ScanError::malformed(FORMAT, DicomProblem::Pixels);
+    if file.bits_allocated == 1 && matches!(file.packing, Some(Packing::Little | Packing::Big)) {
+        return bits(file, frame, bytes).ok_or_else(short);
+    }
     match file.packing {
-        Some(Packing::Rle | Packing::Jpeg) => {
+        Some(kind @ (Packing::Rle | Packing::Jpeg | Packing::Jpeg2000)) => {
             let packed = packed(file, frame).ok_or_else(short)?;
-            if bytes as u64 > MAX_UNFOLDED * packed.len() as u64 {
+            // Of an empty slice JPEG 2000 keeps hardly more than its size.
+            let most = if kind == Packing::Jpeg2000 { 64 * MAX_UNFOLDED } else { MAX_UNFOLDED };
+            if bytes as u64 > most * packed.len() as u64 {
                 return Err(short());
             }
-            if file.packing == Some(Packing::Rle) {
-                run_lengths(&packed, size, bytes).ok_or_else(short)
-            } else {
-                picture(&packed, file)
+            match kind {
+                Packing::Rle => run_lengths(&packed, size, bytes).ok_or_else(short),
+                Packing::Jpeg2000 => wavelets(&packed, file),
+                _ => picture(&packed, file),
             }
         }
         is_big_endian => {
@@ -37,6 +44,15 @@ pub(super) fn frame(file: &File, frame: usize) -> Result<Vec<u8>, ScanError> {
             Ok(pixels)
         }
     }
+}
+
+/// Pixels of one bit, the lowest of a byte first; a frame begins where the one before ends, within a byte too.
+fn bits(file: &File, frame: usize, pixels: usize) -> Option<Vec<u8>> {
+    let all = file.pixels.first()?;
+    let start = frame.checked_mul(pixels)?;
+    let end = start.checked_add(pixels)?;
+    let bit = |at: usize| all[at / 8] >> (at % 8) & 1;
+    (end <= all.len().saturating_mul(8)).then(|| (start..end).map(bit).collect())
 }
 
 /// The fragments of a frame, one after another: a fragment for each frame, or all of them for a file's only one.
@@ -111,4 +127,34 @@ fn picture(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
         (2, _) => pixels.as_chunks().0.iter().flat_map(|&word| u16::from_ne_bytes(word).to_le_bytes()).collect(),
         _ => pixels,
     })
+}
+
+/// Decodes a JPEG 2000 picture of one channel. The decoder takes pixels for numbers from 0 on; whether they are signed the
+/// picture says behind its size (ISO/IEC 15444-1, A.5.1), whatever the file says.
+fn wavelets(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
+    const CODESTREAM: &[u8] = &[0xFF, 0x4F, 0xFF, 0x51];
+    const DEPTH: usize = 42;
+    /// Its numbers are floats, which hold so many bits.
+    const DEEPEST: u8 = 24;
+    let damaged = || ScanError::malformed(FORMAT, DicomProblem::Jpeg);
+    let depth = *packed.get(DEPTH).filter(|_| packed.starts_with(CODESTREAM)).ok_or_else(damaged)?;
+    let image = Image::new(packed, &DecodeSettings::default()).map_err(|_| damaged())?;
+    let bits = image.original_bit_depth();
+    if (image.width() as usize, image.height() as usize) != (file.columns, file.rows)
+        || u16::from(bits) > file.bits_allocated
+        || !matches!(file.bits_allocated, 8 | 16 | 32)
+    {
+        return Err(ScanError::malformed(FORMAT, DicomProblem::JpegSize));
+    }
+    let mut context = DecoderContext::default();
+    let decoded = image.decode(&mut context).map_err(|_| damaged())?;
+    let [channel] = decoded.components() else { return Err(damaged()) };
+    if channel.samples().len() != file.rows * file.columns || !(1..=DEEPEST).contains(&bits) {
+        return Err(damaged());
+    }
+    let lowest = if depth & 0x80 == 0 { 0 } else { 1 << (bits - 1) };
+    let last = (1i32 << bits) - 1;
+    let numbers = channel.samples().iter().map(|&sample| (sample.round() as i32).clamp(0, last) - lowest);
+    let size = usize::from(file.bits_allocated / 8);
+    Ok(numbers.flat_map(|number| number.to_le_bytes().into_iter().take(size)).collect())
 }
