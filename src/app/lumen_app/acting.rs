@@ -45,6 +45,8 @@ impl LumenApp {
                 self.act_on_all(self.on_top(), ctx);
             }
         }
+        let is_embedded = self.platform.is_embedded();
+        action.take_if(|action| is_embedded && !shortcuts::is_of_views(action));
         self.act_on_all(action, ctx);
     }
 

@@ -305,7 +305,7 @@ impl eframe::App for LumenApp {
             self.act(Action::Trial(trial::Action::Device(trial::DeviceAsk::Command(stop))), &ctx);
         }
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
-        if !dropped.is_empty() {
+        if !dropped.is_empty() && !self.platform.is_embedded() {
             // The unit was chosen for a file of the dialog.
             self.state.next_unit = None;
             self.platform.read_dropped(dropped, &ctx);

@@ -205,6 +205,13 @@ fn a_part_of_another_page_has_the_sliders_and_the_view_of_its_link_and_a_way_to_
     let camera = harness.state().camera();
     assert_eq!((camera.target.to_array(), camera.distance), (eye.target_mm, eye.distance_mm));
     assert!(camera.rotation.to_array().iter().zip(rotation).all(|(a, b)| (a - b).abs() < 1e-3));
+    for key in [egui::Key::C, egui::Key::V, egui::Key::M, egui::Key::P, egui::Key::F1] {
+        harness.key_press(key);
+        harness.run_steps(2);
+    }
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::O);
+    harness.run_steps(2);
+    assert!(memory.borrow().asked == 0 && harness.query_by_label("Open in Lumen").is_some(), "no key leaves the views");
     harness.get_by_label("Open in Lumen").click();
     harness.step();
     assert_eq!(commands(&harness), [format!("https://a.example/lumen/#{fragment}")]);
