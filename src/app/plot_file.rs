@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use egui::epaint::TextShape;
+use egui::layers::PaintList;
 use egui::{Color32, Context, FontId, Id, LayerId, Painter, Pos2, Rect, Shape, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::icon::Icon;
@@ -160,7 +161,7 @@ impl Drawn<'_> {
 /// The first `count` shapes that a layer has of this frame.
 fn entries(ctx: &Context, layer: LayerId, count: usize) -> Vec<(Rect, Shape)> {
     ctx.graphics(|layers| {
-        let list = layers.get(layer).into_iter().flat_map(|list| list.all_entries());
+        let list = layers.get(layer).into_iter().flat_map(PaintList::all_entries);
         list.take(count).map(|entry| (entry.clip_rect, entry.shape.clone())).collect()
     })
 }

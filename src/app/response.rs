@@ -373,10 +373,10 @@ fn picture(
                 plot.text(Text::new("", PlotPoint::new(half + gap, 0.54), label).anchor(side).allow_hover(false));
             }
             let moves = plot.response().dragged() || plot.response().clicked();
-            if let Some(at) = plot.response().hover_pos() {
-                if let Some(tie) = pointed(plot, at, (band, log_k), filter) {
-                    tie.light(&plot.response().ctx);
-                }
+            if let Some(at) = plot.response().hover_pos()
+                && let Some(tie) = pointed(plot, at, (band, log_k), filter)
+            {
+                tie.light(&plot.response().ctx);
             }
             plot.pointer_coordinate().filter(|_| moves).map(|place| place.x.clamp(RANGE.0, RANGE.1))
         })

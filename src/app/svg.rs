@@ -33,7 +33,7 @@ pub(super) fn written(size: Vec2, ground: Color32, shapes: &[(Rect, Shape)]) -> 
             let _ = writeln!(svg, "<clipPath id=\"c{}\"><rect {at} {size}/></clipPath>", clips.len() - 1);
             clips.len() - 1
         });
-        let _ = write!(svg, "<g clip-path=\"url(#c{i})\">{drawn}</g>\n");
+        let _ = writeln!(svg, "<g clip-path=\"url(#c{i})\">{drawn}</g>");
     }
     svg + "</svg>\n"
 }
@@ -86,10 +86,10 @@ fn text(shape: &TextShape) -> String {
         let letters: String = row.glyphs.iter().map(|glyph| glyph.chr).collect();
         let at = shape.pos + row.pos.to_vec2() + first.pos.to_vec2();
         let length = last.pos.x + last.advance_width - first.pos.x;
-        let _ = write!(
+        let _ = writeln!(
             lines,
             "<text x=\"{}\" y=\"{}\" font-size=\"{}\" textLength=\"{}\" lengthAdjust=\"spacingAndGlyphs\" \
-             xml:space=\"preserve\"{fill}{turn}>{}</text>\n",
+             xml:space=\"preserve\"{fill}{turn}>{}</text>",
             number(at.x),
             number(at.y),
             number(format.font_id.size),

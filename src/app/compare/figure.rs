@@ -72,6 +72,13 @@ impl Studio {
     pub(in crate::app) fn beside(window: &egui_wgpu::RenderState) -> Self {
         let target_format = ViewTarget::FORMAT;
         let renderer = Renderer::new(&window.device, target_format, RendererOptions::PREDICTABLE);
+        #[cfg_attr(
+            target_arch = "wasm32",
+            expect(
+                clippy::arc_with_non_send_sync,
+                reason = "as the window's renderer is, on the one thread of a page"
+            )
+        )]
         let renderer = std::sync::Arc::new(egui::mutex::RwLock::new(renderer));
         Self { state: egui_wgpu::RenderState { target_format, renderer, ..window.clone() } }
     }
