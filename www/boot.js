@@ -177,9 +177,12 @@ async function start() {
   keepBuild();
 }
 
-/** From the next start on there need be no network. A build that bears no version (Trunk's) is not kept. */
+/**
+ * From the next start on there need be no network. A build that bears no version (Trunk's) is not kept, nor is one that is
+ * a part of another page.
+ */
 async function keepBuild() {
-  if (!query || !navigator.serviceWorker) return;
+  if (!query || !navigator.serviceWorker || new URLSearchParams(location.search).has("embed")) return;
   try {
     await navigator.serviceWorker.register(new URL("service-worker.js", import.meta.url), { updateViaCache: "none" });
   } catch (error) {

@@ -180,8 +180,11 @@ fn equation(ui: &mut Ui, number: &str, lines: &[Math], settings: &Settings) {
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, format!("{number} {math}")));
         let indent = if i == 0 { 0.0 } else { SIZE };
         let corner = rect.left_top() + vec2(indent, GAP / 2.0);
-        for (j, (tie, place)) in set.paint(ui, corner, colour, lit).into_iter().enumerate() {
-            symbol(ui, response.id.with(j), tie, place, settings);
+        let ties = set.paint(ui, corner, colour, lit);
+        // Of N within f the inner one is meant.
+        let at = ui.ctx().pointer_hover_pos();
+        if let Some(&(tie, place)) = ties.iter().find(|(_, place)| at.is_some_and(|at| place.contains(at))) {
+            symbol(ui, response.id.with("symbol"), tie, place, settings);
         }
         if i == 0 {
             let text = RichText::new(number).small().weak();
@@ -224,6 +227,13 @@ mod tests {
         assert_eq!(first, "f_N(k) = w_0(θ)/(π) T_0(1 − k/2)");
         assert_eq!(rest, "+ Σ_(n = 1 … N) w_n(2 sin(nθ))/(nπ) T_n(1 − k/2)");
         assert_eq!(window(Window::Hamming).to_string(), "w_n = 0.54 + 0.46 cos t");
+        // At n = 0 every window is 1.
+        for chosen in Window::ALL {
+            let words = window(chosen).to_string();
+            let terms = words.split_once(" = ").unwrap().1.split(" + ").map(|term| term.split(' ').next().unwrap());
+            let sum: f64 = terms.map(|term| term.parse::<f64>().unwrap()).sum();
+            assert!((sum - 1.0).abs() < 1e-9, "{words}: {sum}");
+        }
         assert_eq!(angle().to_string(), "t = (nπ)/(N + 1)");
         assert_eq!(band().to_string(), "k_PB = 2 (1 − cos θ)");
     }

@@ -164,7 +164,7 @@ impl Set {
         Self { width, ascent, descent, ..both }
     }
 
-    /// Draws it with its upper left corner there, a tied part in its own colour where it is lit. Where each tied part is.
+    /// Draws it with its upper left corner there, a tied part in its own colour where it is lit. Where each tied part is, what is within another first.
     pub(super) fn paint(self, ui: &Ui, corner: Pos2, colour: Color32, lit: Option<Tie>) -> Vec<(Tie, Rect)> {
         let from = corner + vec2(0.0, self.ascent);
         let ties: Vec<(Tie, Rect)> =
@@ -175,7 +175,7 @@ impl Set {
         }
         for (at, galley) in self.letters {
             let middle = from + at + galley.size() / 2.0;
-            let of = ties.iter().rev().find(|(_, rect)| rect.contains(middle)).map(|(tie, _)| *tie);
+            let of = ties.iter().find(|(_, rect)| rect.contains(middle)).map(|(tie, _)| *tie);
             let colour = match of {
                 Some(tie) if lit == Some(tie) => ui.visuals().selection.stroke.color,
                 Some(_) => accent,

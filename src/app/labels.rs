@@ -1,4 +1,4 @@
-//! Who gives way where words over a view would collide. In one frame, in this order: what always stands there (title, name,
+//! Who gives way where words over a view would collide. In one pass over a frame, in this order: what always stands there (title, name,
 //! scale, axes, legends), the place that was gone to, what is wrong, measures. Each takes the first of its places that is
 //! free; words for which none is left are not written.
 
@@ -7,18 +7,18 @@ use egui::{Align2, Context, Id, Pos2, Rect, Ui, Vec2, vec2};
 /// Room around words, in points.
 const ROOM: Vec2 = vec2(6.0, 3.0);
 
-/// Where words stand in this frame.
+/// Where words stand in this pass: a frame that is laid out twice has two.
 #[derive(Clone, Default)]
 struct Taken {
-    frame: u64,
+    pass: u64,
     places: Vec<Rect>,
 }
 
 impl Taken {
     fn of(ctx: &Context) -> Self {
-        let frame = ctx.cumulative_frame_nr();
+        let pass = ctx.cumulative_pass_nr();
         let taken = ctx.data(|data| data.get_temp::<Self>(Self::id())).unwrap_or_default();
-        if taken.frame == frame { taken } else { Self { frame, places: Vec::new() } }
+        if taken.pass == pass { taken } else { Self { pass, places: Vec::new() } }
     }
 
     fn id() -> Id {
@@ -82,15 +82,21 @@ mod tests {
         let view = Rect::from_min_size(Pos2::ZERO, vec2(200.0, 100.0));
         let size = vec2(60.0, 12.0);
         let mut found = Vec::new();
-        // In the second frame nothing of the first is left.
+        // In the second pass nothing of the first is left.
         for _frame in 0..2 {
-            found.clear();
+            let mut passes = 0;
             let mut output = ctx.run_ui(RawInput::default(), |ui| {
+                found.clear();
+                passes += 1;
+                if passes == 1 {
+                    ui.ctx().request_discard("to lay out again");
+                }
                 stands(ui.ctx(), Rect::from_min_size(pos2(110.0, 40.0), vec2(80.0, 20.0)));
                 let at = pos2(99.0, 50.0);
                 found.extend((0..9).map(|_| free(ui, view, around(at, size, 10.0, view))));
             });
             output.textures_delta.clear();
+            assert_eq!(passes, 2);
         }
         let places: Vec<Rect> = found.iter().flatten().copied().collect();
         // To the right something stands; four are free: left, below, above, and none of those askew is clear of all.

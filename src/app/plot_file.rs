@@ -100,17 +100,23 @@ impl Drawn<'_> {
         let count = ui.ctx().graphics(|layers| layers.get(layer).map_or(0, |list| list.all_entries().len()));
         let size = vec2(theme::row(ui.ctx(), 20.0), ui.spacing().interact_size.y.min(theme::row(ui.ctx(), 20.0)));
         let mut corner = ui.new_child(UiBuilder::new().max_rect(Rect::from_min_size(self.whole.max - size, size)));
-        icon_menu(&mut corner, Icon::Save, &say!("record-plot"), &say!("record-plot-help"), &mut |ui| {
-            for (format, text, help) in [
-                (PlotFormat::Svg, say!("record-plot-svg"), say!("record-plot-svg-help")),
-                (PlotFormat::Png, say!("record-plot-png"), say!("record-plot-png-help")),
-            ] {
-                if ui.button(text).on_hover_text(help).clicked() {
-                    let file = self.file(ui, format, entries(ui.ctx(), layer, count));
-                    ui.data_mut(|data| data.insert_temp(PlotFile::id(), Some(Arc::new(file))));
+        icon_menu(
+            &mut corner,
+            Icon::Save,
+            &say!("record-plot", title = self.title),
+            &say!("record-plot-help"),
+            &mut |ui| {
+                for (format, text, help) in [
+                    (PlotFormat::Svg, say!("record-plot-svg"), say!("record-plot-svg-help")),
+                    (PlotFormat::Png, say!("record-plot-png"), say!("record-plot-png-help")),
+                ] {
+                    if ui.button(text).on_hover_text(help).clicked() {
+                        let file = self.file(ui, format, entries(ui.ctx(), layer, count));
+                        ui.data_mut(|data| data.insert_temp(PlotFile::id(), Some(Arc::new(file))));
+                    }
                 }
-            }
-        });
+            },
+        );
     }
 
     /// The plot under title and names of curves, above the disclaimer; `below` is what its layer has of this frame.

@@ -44,10 +44,18 @@ impl Sharing {
     }
 
     /// Where what is open can be seen by others as it is seen now: the page, the surface, the settings and the camera.
-    pub(super) fn link(state: &State, camera: &Camera, page: &dyn PageSharing) -> Option<(String, SharedSurface)> {
+    fn link(state: &State, camera: &Camera, page: &dyn PageSharing) -> Option<(String, SharedSurface)> {
         let (address, surface) = (page.address()?, surface(state)?);
         let link = Link { surface, shared: shared(state), eye: Some(eye_of(camera).rounded()) };
         Some((format!("{address}#{}", link.fragment()), surface))
+    }
+
+    /// The same, or the link that was followed and whose surface is not there.
+    pub(super) fn whole(&self, state: &State, camera: &Camera, page: &dyn PageSharing) -> Option<String> {
+        match &self.followed {
+            Some(followed) => Some(format!("{}#{}", page.address()?, followed.fragment())),
+            None => Self::link(state, camera, page).map(|(link, _)| link),
+        }
     }
 
     /// Moves the camera to where a link looks from.

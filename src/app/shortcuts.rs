@@ -33,14 +33,6 @@ pub(super) fn with_ctrl(ui: &Ui, keys: Keys) -> Option<Action> {
     found.map(|(.., action)| action)
 }
 
-/// Whether a key may ask for it where Lumen is a part of another page, which has no bar to come back by.
-pub(super) fn is_of_views(action: &Action) -> bool {
-    matches!(
-        action,
-        Action::View(_) | Action::Show(_) | Action::Reveal | Action::Fit | Action::Theme | Action::Undo | Action::Redo
-    )
-}
-
 /// What the other keys ask for in this frame.
 pub(super) fn action(ui: &Ui, views: &mut Views, entries: &[Entry]) -> Option<Action> {
     let pressed = |key| pressed(ui, Modifiers::NONE, key);

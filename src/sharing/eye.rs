@@ -5,6 +5,9 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+/// Of a place that is looked at or from, in mm.
+const FARTHEST_MM: f32 = 1e6;
+
 /// From where a surface is looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Eye {
@@ -17,13 +20,12 @@ pub struct Eye {
 }
 
 impl Eye {
-    /// Whether it is anywhere: there are no numbers that are none, and it turns nothing inside out.
+    /// Whether it is within reach of a surface: no farther than a kilometre, no nearer than a micrometre.
     pub fn is_somewhere(&self) -> bool {
         let length = self.rotation.iter().map(|x| x * x).sum::<f32>();
         (length - 1.0).abs() < 1e-3
-            && self.distance_mm > 0.0
-            && self.distance_mm.is_finite()
-            && self.target_mm.iter().all(|x| x.is_finite())
+            && (1e-3..=FARTHEST_MM).contains(&self.distance_mm)
+            && self.target_mm.iter().all(|x| x.abs() <= FARTHEST_MM)
     }
 
     /// With no more digits than can be seen: a ten-thousandth of the distance and of a turn.

@@ -353,7 +353,14 @@ mod tests {
             said(&whole.replace("reduction=auto", "reduction=90.04")),
             "The link cannot be read: \"90.04\" is no value for \"reduction\"."
         );
-        for eye in ["1,2,3", "0,0,0,0,0,0,1,0", "0,0,0,0,0,0,2,5", "0,0,NaN,0,0,0,1,5", "0,0,0,0,0,0,1,5,6"] {
+        for eye in [
+            "1,2,3",
+            "0,0,0,0,0,0,1,0",
+            "0,0,0,0,0,0,2,5",
+            "0,0,NaN,0,0,0,1,5",
+            "0,0,0,0,0,0,1,5,6",
+            "3e38,0,0,0,0,0,1,9",
+        ] {
             assert_eq!(
                 said(&format!("{whole}&eye={eye}")),
                 format!("The link cannot be read: \"{eye}\" is no value for \"eye\".")

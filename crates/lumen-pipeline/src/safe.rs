@@ -30,7 +30,7 @@ use lumen_vessel::certificate::{Basis, BranchCalibre, CalibreError, Coverage, St
 use lumen_vessel::{BranchName, Subject};
 
 /// The rates that are looked at, in tenths of a percent; the first is the smoothed surface itself.
-const RATES: [u32; 16] = [0, 500, 750, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 995, 998, 999];
+const RATES: [u32; 15] = [0, 750, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 995, 998, 999];
 
 /// The part of a branch's stations that have to be measured still: where the surface is folded a cut does not close.
 const MEASURED: f64 = 0.9;

@@ -45,9 +45,19 @@ impl LumenApp {
                 self.act_on_all(self.on_top(), ctx);
             }
         }
-        let is_embedded = self.platform.is_embedded();
-        action.take_if(|action| is_embedded && !shortcuts::is_of_views(action));
         self.act_on_all(action, ctx);
+    }
+
+    /// Whether it may be asked for where Lumen is a part of another page: there is no bar to come back by, and what is open is
+    /// all that there is.
+    fn fits_embedded(&self, action: &Action) -> bool {
+        match action {
+            Action::Set(_) | Action::Undo | Action::Redo | Action::Theme => true,
+            Action::View(_) | Action::Show(_) | Action::Fit | Action::Reveal | Action::HoldBefore(_) => true,
+            Action::GoTo { .. } | Action::LookAt { .. } | Action::Mark { .. } | Action::Unmark => true,
+            Action::Cancel => self.state.opening().is_none() && self.state.document.is_some(),
+            _ => false,
+        }
     }
 
     /// What modes and panels have in the bar. The first tab is open where no other is.
@@ -153,6 +163,9 @@ impl LumenApp {
     /// Does what is asked for: nothing else changes settings, comparison or trial by the user's will, but for what is steered
     /// by hand: cameras, C-arm and wire.
     pub(super) fn act(&mut self, action: Action, ctx: &egui::Context) {
+        if self.platform.is_embedded() && !self.fits_embedded(&action) {
+            return;
+        }
         // What was shown of it before is not the last.
         ctx.request_repaint();
         let needs_level = matches!(action, Action::ToggleTrial | Action::Trial(trial::Action::Start) | Action::Compare);

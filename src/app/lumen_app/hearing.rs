@@ -123,6 +123,10 @@ impl LumenApp {
         if !rest.is_empty() {
             self.sharing.follow(&rest, &mut self.state, self.platform.link());
         }
+        // A lesson opens what a part of another page has no way back from.
+        if self.platform.is_embedded() {
+            return;
+        }
         match self.panels.lesson.open(&name) {
             Ok(()) => self.act(Action::Lesson(lesson::Action::Go(step)), ctx),
             Err(sentence) => self.state.warn(&sentence),
@@ -187,7 +191,7 @@ impl LumenApp {
             self.panels.scan.scans.follow(link);
         }
         let goes_on = self.panels.all().into_iter().any(|panel| panel.goes_on(&*self.platform));
-        if goes_on || self.state.is_busy() || self.record.is_busy() {
+        if goes_on || self.state.is_busy() || self.record.progress().is_some() {
             ctx.request_repaint_after(LISTEN);
         }
     }

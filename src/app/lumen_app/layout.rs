@@ -6,13 +6,11 @@ use super::LumenApp;
 use crate::app::action::Action;
 use crate::app::drawer::Content;
 use crate::app::mode::{Beside, Mode, Now, Place};
-use crate::app::sharing::Sharing;
 use crate::app::state::State;
 use crate::app::views::{Clicked, Over, Subject};
 use crate::app::{bar, collapses, invitation, panel, row, theme, verdict};
 use crate::pipeline::settings::Settings;
 use crate::say;
-use crate::sharing::SharedSurface;
 
 /// From this width on there is room for a plot beside the views while someone presents, in points.
 const ROOM_TO_PRESENT: f32 = 800.0;
@@ -243,7 +241,7 @@ impl LumenApp {
         let margin = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
         Panel::bottom("dock").frame(margin).show(ui, |ui| {
             row::docked(ui, |ui| self.dock(ui));
-            if let Some((link, _)) = self.whole() {
+            if let Some(link) = self.whole() {
                 let whole = Hyperlink::from_label_and_url(RichText::new(say!("app-whole")).small(), link);
                 ui.add(whole.open_in_new_tab(true)).on_hover_text(say!("app-whole-help"));
             }
@@ -259,9 +257,9 @@ impl LumenApp {
     }
 
     /// The address of the whole program with what is shown here, where this is a part of another page.
-    fn whole(&self) -> Option<(String, SharedSurface)> {
+    fn whole(&self) -> Option<String> {
         let is_part = self.platform.is_embedded();
-        is_part.then(|| Sharing::link(&self.state, &self.views.camera, &*self.platform)).flatten()
+        is_part.then(|| self.sharing.whole(&self.state, &self.views.camera, &*self.platform)).flatten()
     }
 
     /// The panels, to be changed, and what they may look at.

@@ -32,7 +32,8 @@ use plot::PlotJob;
 pub(super) struct Record {
     device: Option<egui_wgpu::RenderState>,
     job: Option<Job>,
-    plot: Option<PlotJob>,
+    /// Pictures that were drawn at once and are read back.
+    plots: Vec<PlotJob>,
     chosen: Chosen,
     said: Said,
 }
@@ -62,7 +63,7 @@ impl Record {
     pub(super) fn set_device(&mut self, device: Option<&egui_wgpu::RenderState>) {
         self.device = device.cloned();
         self.job = None;
-        self.plot = None;
+        self.plots.clear();
     }
 
     /// What a user has chosen.
@@ -70,14 +71,10 @@ impl Record {
         self.chosen
     }
 
-    /// Whether something is being drawn.
-    pub(super) fn is_busy(&self) -> bool {
-        self.job.is_some() || self.plot.is_some()
-    }
-
     /// What is being drawn, and the part of it that is done; `None` for nothing.
     pub(super) fn progress(&self) -> Option<(String, f32)> {
-        self.job.as_ref().map(Job::progress)
+        let of_plots = (!self.plots.is_empty()).then(|| (say!("record-drawing-picture"), 0.5));
+        self.job.as_ref().map(Job::progress).or(of_plots)
     }
 
     /// Another surface was opened: what was said of the one before is forgotten.
@@ -101,7 +98,7 @@ impl Record {
             Action::Figure => {
                 let device = self.device.as_ref().ok_or_else(|| say!("compare-no-device"));
                 match device.and_then(|device| PlotJob::figure(device, state)) {
-                    Ok(figure) => self.plot = Some(figure),
+                    Ok(figure) => self.plots.push(figure),
                     Err(sentence) => state.warn(&sentence),
                 }
             }
@@ -127,7 +124,7 @@ impl Record {
         match (file.format, &self.device) {
             (PlotFormat::Svg, _) => files.offer_file(&name("svg"), file.svg().into_bytes(), ctx),
             (PlotFormat::Png, Some(device)) => {
-                self.plot = Some(PlotJob::begin(device, file, name("png"), ctx.theme()));
+                self.plots.push(PlotJob::begin(device, file, name("png"), ctx.theme()));
             }
             (PlotFormat::Png, None) => state.warn(&say!("compare-no-device")),
         }
@@ -154,25 +151,25 @@ impl Record {
 
     /// Gives up what is being drawn.
     pub(super) fn cancel(&mut self, state: &mut State) {
-        if let Some(job) = self.job.take() {
-            if let Some(name) = job.asked_for() {
-                state.forget_file(name);
-            }
+        let plots = std::mem::take(&mut self.plots);
+        let job = self.job.take();
+        if let Some(name) = job.as_ref().and_then(Job::asked_for) {
+            state.forget_file(name);
+        }
+        if job.is_some() || !plots.is_empty() {
             state.tell(&say!("record-cancelled"));
         }
     }
 
     /// To be called each frame: takes what was drawn and draws what comes next.
     pub(super) fn follow(&mut self, state: &mut State, link: &mut dyn Link) {
-        if let Some(plot) = &self.plot {
-            let advanced = plot.advance(state, link);
-            if !matches!(advanced, Ok(false)) {
-                self.plot = None;
-            }
-            if let Err(sentence) = advanced {
+        self.plots.retain(|plot| match plot.advance(state, link) {
+            Ok(is_done) => !is_done,
+            Err(sentence) => {
                 state.warn(&sentence);
+                false
             }
-        }
+        });
         let Some(job) = &mut self.job else { return };
         match job.advance(state, link) {
             Ok(true) => self.job = None,

@@ -457,7 +457,7 @@ panel-equations-help = Die Gleichungen des Artikels. Zeigen Sie auf ein farbiges
 panel-equation-1 = Wie weit ein Eckpunkt vom Mittel seiner Nachbarn liegt; seine Gewichte w ergeben zusammen 1.
 panel-equation-2 = Dasselbe für alle Eckpunkte zugleich, mit K = I − W.
 panel-equation-3 = Glätten: eine Funktion von K, angewandt auf die Koordinaten.
-panel-equation-4 = Die Oberfläche ist eine Summe von Wellen e. Von jeder bleibt der Anteil f ihres Eigenwerts k: nahe 0 bei langen Wellen, höchstens 2 bei den kürzesten.
+panel-equation-4 = Die Oberfläche ist eine Summe von Wellen e. Von jeder bleibt der Anteil f(k); ihr Eigenwert k ist nahe 0 bei langen Wellen, höchstens 2 bei den kürzesten.
 panel-equation-5 = Die Filterantwort: Tschebyschow-Polynome T bis zum Grad N. θ steht für das Durchlassband, ein wenig verschoben, damit es selbst ganz durchkommt.
 panel-equation-6 = Das Fenster { $window }: Ohne diese Gewichte würde eine Reihe, die endet, schwingen.
 panel-equation-7 = Die Reduktion: der Anteil der m Dreiecke, der wegfällt, in Prozent; m' bleiben.

@@ -12,9 +12,9 @@ record-clear-help = Nichts hinter der Oberfläche, um sie über anderes zu legen
 record-turntable = Drehung (APNG)...
 record-turntable-help = Die Oberfläche dreht sich einmal, als bewegtes Bild; die Farben sind die der Ansicht
 
-## Eine Kurve als Datei
+## Ein Diagramm als Datei
 
-record-plot = Diese Kurve speichern
+record-plot = Diagramm speichern: { $title }
 record-plot-help = Als Datei für Folien und Veröffentlichungen
 record-plot-svg = Als Vektorgrafik (SVG)...
 record-plot-svg-help = Scharf in jeder Größe; Wörter bleiben Text

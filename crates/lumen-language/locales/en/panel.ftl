@@ -432,7 +432,7 @@ panel-equations-help = The equations of the paper. Point at a symbol in colour: 
 panel-equation-1 = How far a vertex lies from the mean of its neighbours; its weights w add up to 1.
 panel-equation-2 = The same for all vertices at once, with K = I − W.
 panel-equation-3 = Smoothing: a function of K, applied to the coordinates.
-panel-equation-4 = The surface is a sum of waves e. Each stays by the part f of its eigenvalue k: near 0 for long waves, at most 2 for the shortest.
+panel-equation-4 = The surface is a sum of waves e. Of each the part f(k) is left; its eigenvalue k is near 0 for long waves, at most 2 for the shortest.
 panel-equation-5 = The response: Chebyshev polynomials T up to the degree N. θ stands for the pass band, moved by a little so that the pass band itself is kept.
 panel-equation-6 = The window { $window }: without these weights a series that ends would ripple.
 panel-equation-7 = The reduction: the part of the m triangles that is gone, in percent; m' are left.

@@ -15,7 +15,7 @@ record-turntable-help = The surface turning once, as a picture that moves; the c
 
 ## A plot as a file
 
-record-plot = Save this plot
+record-plot = Save plot: { $title }
 record-plot-help = As a file for slides and papers
 record-plot-svg = As vector graphic (SVG)...
 record-plot-svg-help = Sharp at any size; its words stay words

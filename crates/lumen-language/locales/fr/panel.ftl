@@ -454,7 +454,7 @@ panel-equations-help = Les équations de l'article. Pointez un symbole en couleu
 panel-equation-1 = À quelle distance un sommet se trouve de la moyenne de ses voisins ; la somme de ses poids w est 1.
 panel-equation-2 = La même chose pour tous les sommets à la fois, avec K = I − W.
 panel-equation-3 = Le lissage : une fonction de K, appliquée aux coordonnées.
-panel-equation-4 = La surface est une somme d'ondes e. De chacune reste la part f de sa valeur propre k : près de 0 pour les ondes longues, au plus 2 pour les plus courtes.
+panel-equation-4 = La surface est une somme d'ondes e. De chacune reste la part f(k) ; sa valeur propre k est près de 0 pour les ondes longues, au plus 2 pour les plus courtes.
 panel-equation-5 = La réponse : des polynômes de Tchebychev T jusqu'au degré N. θ représente la bande passante, un peu décalée pour qu'elle soit elle-même conservée.
 panel-equation-6 = La fenêtre { $window } : sans ces poids, une série qui finit oscillerait.
 panel-equation-7 = La réduction : la part des m triangles qui disparaît, en pour cent ; il en reste m'.

@@ -14,7 +14,7 @@ record-turntable-help = La surface fait un tour, en image animée ; les couleur
 
 ## Un graphique en fichier
 
-record-plot = Enregistrer ce graphique
+record-plot = Enregistrer le graphique : { $title }
 record-plot-help = En fichier, pour des diapositives ou un article
 record-plot-svg = En image vectorielle (SVG)...
 record-plot-svg-help = Nette à toute taille ; les mots restent du texte

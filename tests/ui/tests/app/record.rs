@@ -316,7 +316,7 @@ fn a_plot_is_saved_as_it_stands_in_the_window() {
     let (mut harness, memory) = opened([1280.0, 1400.0]);
     click(&mut harness, "Response");
     settle(&mut harness);
-    click(&mut harness, "Save this plot");
+    click(&mut harness, "Save plot: Response");
     click(&mut harness, "As vector graphic (SVG)...");
     let (name, svg) = offered(&mut harness, &memory);
     assert_eq!(name, "abdominal-aorta-response.svg");
@@ -335,7 +335,7 @@ fn a_plot_is_saved_as_it_stands_in_the_window() {
     let far: Vec<f32> = marks.map(|i| near(x[i], y[i])).collect();
     assert!(far.len() == 1 && far[0] < 1.0, "{far:?} points away");
 
-    click(&mut harness, "Save this plot");
+    click(&mut harness, "Save plot: Response");
     click(&mut harness, "As picture (PNG)...");
     let (name, png) = offered(&mut harness, &memory);
     assert_eq!(name, "abdominal-aorta-response.png");

@@ -211,7 +211,13 @@ fn a_part_of_another_page_has_the_sliders_and_the_view_of_its_link_and_a_way_to_
     }
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::O);
     harness.run_steps(2);
-    assert!(memory.borrow().asked == 0 && harness.query_by_label("Open in Lumen").is_some(), "no key leaves the views");
+    tell(&mut harness, &memory, PlatformEvent::Linked { fragment: "#lesson=wire".to_owned() });
+    assert!(memory.borrow().asked == 0 && memory.borrow().offered.is_empty());
+    let app = harness.state();
+    assert!(!app.state().comparison.is_open() && app.lessons().given().is_none() && !app.trial().is_on());
+    for label in ["Close", "Done", "Vessels", "Presenting"] {
+        assert!(harness.query_by_label(label).is_none(), "no key leaves the views: {label}");
+    }
     harness.get_by_label("Open in Lumen").click();
     harness.step();
     assert_eq!(commands(&harness), [format!("https://a.example/lumen/#{fragment}")]);
