@@ -32,6 +32,9 @@ use lumen_vessel::{BranchName, Subject};
 /// The rates that are looked at, in tenths of a percent; the first is the smoothed surface itself.
 const RATES: [u32; 15] = [0, 750, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 995, 998, 999];
 
+/// The rate that is looked at first between the first two of the row.
+const FIRST_BETWEEN: u32 = 500;
+
 /// The part of a branch's stations that have to be measured still: where the surface is folded a cut does not close.
 const MEASURED: f64 = 0.9;
 
@@ -268,6 +271,10 @@ impl Search {
         }
         let (good, bad) = self.bounds();
         let (good, bad) = (good?.per_mille, bad?.per_mille);
+        // The first step of the row is wide, and a level of few triangles less takes longest to look at.
+        if (good, bad) == (RATES[0], RATES[1]) {
+            return Some(FIRST_BETWEEN);
+        }
         (bad - good > 1).then(|| good.midpoint(bad))
     }
 
