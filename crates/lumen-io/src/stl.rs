@@ -164,7 +164,7 @@ async fn are_facets(more: &[[u8; FACET]], first: &[[u8; FACET]], pace: &Pace) ->
 fn have_normals(facets: &[[u8; FACET]]) -> Option<bool> {
     let (mut stored, mut right) = (0, 0);
     for [normal, a, b, c] in facets.iter().map(normal_and_corners) {
-        let [normal, across] = [normal, (b - a).cross(c - a)].map(|v| v.as_dvec3());
+        let [normal, across] = [normal, (b - a).cross(c - a)].map(Vec3::as_dvec3);
         if normal != DVec3::ZERO && across != DVec3::ZERO {
             stored += 1;
             // False for NaN.
