@@ -69,7 +69,7 @@ fn of_obj(tube: &TriMesh) -> Vec<File> {
 fn of_stl(tube: &TriMesh) -> Vec<File> {
     let binary = write(tube, None, Format::Stl).unwrap();
     let mut files = Vec::new();
-    for announced in [0, 1, 960, 1919, 1921, 3840, u32::MAX] {
+    for announced in [0, 1, 960, 1919, 3840, u32::MAX] {
         for (behind, more) in [("", &b""[..]), (" and a line end", b"\r\n")] {
             let mut bytes = [&binary, more].concat();
             bytes[80..84].copy_from_slice(&announced.to_le_bytes());

@@ -103,14 +103,23 @@ pub(super) fn volume(bytes: &[u8]) -> Option<Volume> {
     let head = &head[..head.len().min(4096)];
     let contains = |word: &[u8]| head.windows(word.len()).any(|part| part == word);
     if vtk::is_legacy(head) {
-        let words = head.to_ascii_lowercase();
-        return words.windows(17).any(|part| part == b"structured_points").then_some(Volume::Vti);
+        return legacy_kind(head)
+            .is_some_and(|kind| kind.eq_ignore_ascii_case(b"structured_points"))
+            .then_some(Volume::Vti);
     }
     if vtk::is_xml(head) {
         return contains(b"\"ImageData\"").then_some(Volume::Vti);
     }
     let begins = [&b"ObjectType"[..], b"NDims", b"Comment"].iter().any(|word| head.starts_with(word));
     (begins && contains(b"DimSize")).then_some(Volume::MetaImage)
+}
+
+/// The word behind `DATASET` in the head of a legacy VTK file, whose second line is a title of any words.
+fn legacy_kind(head: &[u8]) -> Option<&[u8]> {
+    let body = head.splitn(3, |&byte| byte == b'\n').nth(2)?;
+    let mut words = body.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+    words.find(|word| word.eq_ignore_ascii_case(b"dataset"))?;
+    words.next()
 }
 
 /// Whether bytes are a header of Analyze 7.5, which has no word to know it by, and if so whether it is big-endian: its length,
@@ -198,6 +207,11 @@ mod tests {
         let meta = b"ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\nElementType = MET_SHORT";
         for head in [&dicom[..], image, nifti_2, meta, b"NRRD0004\n", b"\x1f\x8b\x08"] {
             assert!(may_be_volume(head), "{head:?}");
+        }
+        let legacy = |title: &str, kind: &str| format!("# vtk DataFile Version 3.0\n{title}\nASCII\nDATASET {kind}\n");
+        assert!(may_be_volume(legacy("", "Structured_Points").as_bytes()));
+        for title in ["from structured_points", "DATASET STRUCTURED_POINTS"] {
+            assert!(!may_be_volume(legacy(title, "POLYDATA").as_bytes()));
         }
         let surface = b"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\">";
         for head in [&surface[..], b"ply\nformat ascii 1.0\n", b"solid", b"PK\x03\x04", b"", b"{\"a\": 1}"] {

@@ -149,7 +149,7 @@ impl Reader {
                 self.faces.of_cell(self.groups.present);
                 self.faces.finish_face();
             }
-            Some(b"g" | b"o") => self.groups.enter(row.get(1..).unwrap_or_default().trim_ascii()),
+            Some(b"g" | b"o") => self.groups.enter(row.trim_ascii().get(1..).unwrap_or_default().trim_ascii()),
             Some(b"l") => self.lines += 1,
             Some(b"p") => self.points += 1,
             _ => {}
@@ -379,6 +379,14 @@ mod tests {
     fn comments_end_a_line_of_numbers() {
         let raw = read(b"v 0 0 0 # a\nv 1 0 0 #2 3 4\nv 0 1 0#\nf 1 2 3 # 4\nf 3 2 1#").unwrap();
         assert_eq!((raw.triangles, raw.arrays.len()), (vec![[0, 1, 2], [2, 1, 0]], 0));
+    }
+
+    #[test]
+    fn a_number_sign_belongs_to_the_name_of_a_group() {
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng Part#1\nf 1 2 3\ng Part#2\nf 3 2 1\n  g Part#1 \nf 2 3 1\n";
+        let raw = read(text.as_bytes()).unwrap();
+        let groups = &raw.arrays[0];
+        assert_eq!((0..3).map(|t| groups.values.get(t)).collect::<Vec<_>>(), [1.0, 2.0, 1.0]);
     }
 
     #[test]

@@ -2,8 +2,11 @@
 //!
 //! Binary is recognised by its length, `84 + 50 n` bytes for n triangles, before anything else: many writers begin
 //! the free text of a binary header with "solid", which the crate `stl_io` takes for text; that is why the format is
-//! read here. Where header and length do not agree, the length decides if it fits: writers that do not know the count in
-//! advance leave 0, 0xFFFFFFFF or an estimate there. Facet normals are not used: they are often wrong, and the winding says the same.
+//! read here. Writers that do not know the count in advance leave 0, 0xFFFFFFFF, half or double of it in the header; there the
+//! length decides, if it is a whole number of facets and those behind the count are like the others. Facet normals serve
+//! for nothing else: they are often wrong, and the winding says the same.
+
+use std::cmp::Ordering;
 
 use glam::DVec3;
 use lumen_message::messages;
@@ -84,7 +87,8 @@ async fn read_binary(bytes: &[u8], pace: &Pace) -> Result<RawSurface, ReadError>
     };
     let announced = announced(bytes).ok_or_else(|| cut_short(Counted::HeaderBytes, 84, bytes.len()))?;
     let body = &bytes[HEADER + 4..];
-    let count = facet_count(announced, body)
+    let count = facet_count(announced, body, pace)
+        .await
         .ok_or_else(|| cut_short(Counted::Triangles, u64::from(announced), body.len() / FACET))?;
     check_size(0, count)?;
     let mut positions = Vec::with_capacity(3 * count);
@@ -97,8 +101,10 @@ async fn read_binary(bytes: &[u8], pace: &Pace) -> Result<RawSurface, ReadError>
     }
     let triangles = (0..count as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     let mut raw = RawSurface::new(BINARY, positions, triangles);
-    if announced as usize != count {
-        raw.warnings.push(Warning::StlCount { announced, found: count });
+    match (announced as usize).cmp(&count) {
+        Ordering::Less => raw.warnings.push(Warning::StlCount { announced, found: count }),
+        Ordering::Equal => {}
+        Ordering::Greater => raw.warnings.push(Warning::StlFewer { announced, found: count }),
     }
     if !trailing.is_empty() {
         raw.warnings.push(Warning::StlTrailing { bytes: trailing.len() });
@@ -106,28 +112,76 @@ async fn read_binary(bytes: &[u8], pace: &Pace) -> Result<RawSurface, ReadError>
     Ok(raw)
 }
 
-/// The corners of a facet, which is its normal, these and two bytes of its own.
-fn corners(facet: &[u8; FACET]) -> [Vec3; 3] {
+/// The normal of a facet and its corners, behind which are two bytes of its own.
+fn normal_and_corners(facet: &[u8; FACET]) -> [Vec3; 4] {
     let number = |at: usize| f32::from_le_bytes([facet[at], facet[at + 1], facet[at + 2], facet[at + 3]]);
-    [12, 24, 36].map(|at| Vec3::new(number(at), number(at + 4), number(at + 8)))
+    [0, 12, 24, 36].map(|at| Vec3::new(number(at), number(at + 4), number(at + 8)))
+}
+
+fn corners(facet: &[u8; FACET]) -> [Vec3; 3] {
+    let [_, a, b, c] = normal_and_corners(facet);
+    [a, b, c]
 }
 
 /// How many facets a body has whose header announces so many; `None` where it is cut short.
-fn facet_count(announced: u32, body: &[u8]) -> Option<usize> {
+async fn facet_count(announced: u32, body: &[u8], pace: &Pace) -> Option<usize> {
     let (whole, rest) = body.as_chunks::<FACET>();
-    match usize::try_from(announced) {
-        Ok(count) if count < whole.len() && !are_facets(&whole[count..]) => Some(count),
-        Ok(count) if count <= whole.len() => Some(whole.len()),
-        _ => (!whole.is_empty() && rest.len() <= FEW).then_some(whole.len()),
+    let found = whole.len();
+    let count = usize::try_from(announced).unwrap_or(usize::MAX);
+    if count <= found {
+        let (first, more) = whole.split_at(count);
+        let go_on = count < found && rest.len() <= FEW && are_facets(more, first, pace).await;
+        return Some(if go_on { found } else { count });
+    }
+    // A file that was cut off has fewer facets than it announces, too; seldom half of them, or a negative number.
+    let is_no_count = announced > i32::MAX as u32 || count == 2 * found;
+    (is_no_count && found > 0 && matches!(rest, b"" | b"\n" | b"\r\n")).then_some(found)
+}
+
+/// Whether what stands behind the `first` facets, which are announced, are facets, too: neither text nor padding nor other
+/// numbers. Whole numbers, such as those of regions, are denormal as coordinates.
+async fn are_facets(more: &[[u8; FACET]], first: &[[u8; FACET]], pace: &Pace) -> bool {
+    // The comparison is false for NaN.
+    let is_place = |x: f32| f64::from(x.abs()) <= FARTHEST_MM && !x.is_subnormal();
+    for block in more.chunks(BLOCK) {
+        if !block.iter().flat_map(corners).all(|p| p.to_array().into_iter().all(is_place)) {
+            return false;
+        }
+        pace.rest(0.0).await;
+    }
+    let [first, more] = [first, more].map(|facets| &facets[..facets.len().min(BLOCK)]);
+    if !more.iter().map(corners).any(|[a, b, c]| a != b && b != c && c != a) {
+        return false;
+    }
+    match (have_normals(first), have_normals(more)) {
+        (_, Some(true)) => true,
+        (Some(true), _) => false,
+        _ => first.is_empty() || are_as_large(first, more),
     }
 }
 
-/// Whether what stands behind the facets that are announced can be facets, too: neither text nor padding.
-fn are_facets(more: &[[u8; FACET]]) -> bool {
-    let mut first = more.iter().take(BLOCK).map(corners);
-    // The comparison is false for NaN.
-    let is_place = |p: &Vec3| p.to_array().iter().all(|x| f64::from(x.abs()) <= FARTHEST_MM);
-    first.clone().all(|corners| corners.iter().all(is_place)) && first.any(|[a, b, c]| a != b && b != c && c != a)
+/// Whether most stored normals go with the corners, whichever way these turn; `None` where none is stored.
+fn have_normals(facets: &[[u8; FACET]]) -> Option<bool> {
+    let (mut stored, mut right) = (0, 0);
+    for [normal, a, b, c] in facets.iter().map(normal_and_corners) {
+        let [normal, across] = [normal, (b - a).cross(c - a)].map(Vec3::as_dvec3);
+        if normal != DVec3::ZERO && across != DVec3::ZERO {
+            stored += 1;
+            // False for NaN.
+            right += usize::from(normal.normalize().dot(across.normalize()).abs() > 0.9);
+        }
+    }
+    (stored > 0).then_some(2 * right > stored)
+}
+
+/// Whether the boxes around two parts differ in size by no more than a factor of ten.
+fn are_as_large(first: &[[u8; FACET]], more: &[[u8; FACET]]) -> bool {
+    let [first, more] = [first, more].map(|facets| {
+        let places = || facets.iter().flat_map(corners);
+        let (low, high) = (places().reduce(Vec3::min), places().reduce(Vec3::max));
+        low.zip(high).map_or(0.0, |(low, high)| low.distance(high))
+    });
+    first <= 10.0 * more && more <= 10.0 * first
 }
 
 /// The text form.
@@ -282,6 +336,14 @@ mod tests {
     }
 
     #[test]
+    fn many_solids_in_a_single_line_are_read_at_once() {
+        // Gone over to its end at every solid, this line would be 2e12 bytes.
+        let solid =
+            "solid a facet normal 0 0 0 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet endsolid ";
+        assert_eq!(read(solid.repeat(200_000).as_bytes()).unwrap().triangles.len(), 200_000);
+    }
+
+    #[test]
     fn the_length_decides_where_the_count_is_wrong() {
         let mesh = lumen_mesh::shapes::icosphere(2, 10.0, Vec3::ZERO);
         let found = mesh.triangles.len();
@@ -291,7 +353,7 @@ mod tests {
             bytes[80..84].copy_from_slice(&announced.to_le_bytes());
             read(&bytes)
         };
-        for announced in [0, 1, found as u32 / 2, found as u32 + 1, 2 * found as u32, u32::MAX] {
+        for announced in [0, 1, found as u32 / 2] {
             for more in [&b""[..], b"\n", b"\0\0\0\0"] {
                 let raw = with(announced, more).unwrap();
                 assert_eq!(raw.triangles.len(), found);
@@ -299,12 +361,54 @@ mod tests {
                 assert_eq!(raw.warnings.len(), 1 + usize::from(!more.is_empty()));
             }
         }
-        // What can be no facets is none, and what ends within one is cut short.
-        for more in [[0; 512], [b'x'; 512]] {
-            let raw = with(found as u32, &more).unwrap();
-            assert_eq!((raw.triangles.len(), &raw.warnings[..]), (found, &[Warning::StlTrailing { bytes: 512 }][..]));
+        for announced in [2 * found as u32, u32::MAX] {
+            for more in [&b""[..], b"\n", b"\r\n"] {
+                let raw = with(announced, more).unwrap();
+                assert_eq!(raw.triangles.len(), found);
+                assert_eq!(raw.warnings[0], Warning::StlFewer { announced, found });
+                assert!(raw.warnings[0].to_string().ends_with("The file may be cut short."));
+            }
+            assert!(with(announced, b"\0\0\0\0").is_err());
         }
-        assert!(with(found as u32 + 1, &[0; 30]).is_err());
+    }
+
+    #[test]
+    fn a_file_cut_off_behind_a_facet_is_refused() {
+        let mesh = lumen_mesh::shapes::icosphere(2, 10.0, Vec3::ZERO);
+        let good = write(&Output::new(&mesh)).unwrap();
+        for left in [1, 100, mesh.triangles.len() - 1] {
+            for more in 0..=FEW {
+                let problem = read(&good[..84 + FACET * left + more]).err().unwrap().to_string();
+                assert!(problem.contains("cut short"), "{problem}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_stands_behind_the_facets_is_no_facet() {
+        let mesh = lumen_mesh::shapes::icosphere(2, 10.0, Vec3::ZERO);
+        let found = mesh.triangles.len();
+        let good = write(&Output::new(&mesh)).unwrap();
+        let regions: Vec<u8> = (0..25 * found as u32).flat_map(|i| (i % 7).to_le_bytes()).collect();
+        let values: Vec<u8> = (0..25 * found).flat_map(|i| (i as f32).sin().to_le_bytes()).collect();
+        for more in [&[0; 500][..], &[b'x'; 500], &[b'x'; 512], &[0; 30], &regions, &values] {
+            let raw = read(&[&good, more].concat()).unwrap();
+            let warning = Warning::StlTrailing { bytes: more.len() };
+            assert_eq!((raw.triangles.len(), &raw.warnings[..]), (found, &[warning][..]));
+        }
+    }
+
+    #[test]
+    fn facets_without_normals_behind_those_announced_are_facets_of_like_size() {
+        let mesh = lumen_mesh::shapes::icosphere(2, 10.0, Vec3::ZERO);
+        let mut bytes = write(&Output::new(&mesh)).unwrap();
+        bytes[84..].as_chunks_mut::<FACET>().0.iter_mut().for_each(|facet| facet[..12].fill(0));
+        let half = mesh.triangles.len() / 2;
+        bytes[80..84].copy_from_slice(&(half as u32).to_le_bytes());
+        assert_eq!(read(&bytes).unwrap().triangles.len(), 2 * half);
+        let values = (0..25 * half).flat_map(|i| (1e-3 * (i as f32).sin()).to_le_bytes());
+        let bytes: Vec<u8> = bytes[..84 + FACET * half].iter().copied().chain(values).collect();
+        assert_eq!(read(&bytes).unwrap().triangles.len(), half);
     }
 
     #[test]

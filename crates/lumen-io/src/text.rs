@@ -53,28 +53,35 @@ impl<'a> Words<'a> {
 
     /// Moves to the end of the current line.
     pub(super) fn skip_line(&mut self) {
-        self.at += self.line_left().len();
+        let rest = &self.bytes[self.at..];
+        self.at += rest.iter().position(is_line_end).unwrap_or(rest.len());
     }
 
-    /// Moves to where a word stands before another in the current line, in any case, or to its end.
+    /// Moves to where a word stands before another in the current line, in any case, or to its end. It looks at no byte
+    /// beyond that place: a line may be the whole file.
     pub(super) fn skip_line_until(&mut self, word: &[u8], next: &[u8]) {
-        let mut line = Words::new(self.line_left(), 0);
         let mut start = None;
-        while let Some(found) = line.next() {
+        loop {
+            let rest = &self.bytes[self.at..];
+            let is_space = |byte: &u8| byte.is_ascii_whitespace() && !is_line_end(byte);
+            let at = self.at + rest.iter().position(|byte| !is_space(byte)).unwrap_or(rest.len());
+            let rest = &self.bytes[at..];
+            let found = &rest[..rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len())];
             if let Some(start) = start.filter(|_| found.eq_ignore_ascii_case(next)) {
-                self.at += start;
+                self.at = start;
                 return;
             }
-            start = found.eq_ignore_ascii_case(word).then(|| line.at - found.len());
+            self.at = at + found.len();
+            if found.is_empty() {
+                return;
+            }
+            start = found.eq_ignore_ascii_case(word).then_some(at);
         }
-        self.skip_line();
     }
+}
 
-    /// What is left of the current line.
-    fn line_left(&self) -> &'a [u8] {
-        let rest = &self.bytes[self.at..];
-        &rest[..rest.iter().position(|&byte| byte == b'\n' || byte == b'\r').unwrap_or(rest.len())]
-    }
+fn is_line_end(byte: &u8) -> bool {
+    matches!(byte, b'\n' | b'\r')
 }
 
 /// The number that `word` is, rounded once to `f32`; "nan" and "inf" are numbers here.

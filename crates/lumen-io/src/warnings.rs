@@ -16,6 +16,8 @@ messages! {
         "errors-stl-trailing" StlTrailing { bytes: usize } => "{bytes} bytes after the last triangle left out.",
         "errors-stl-count" StlCount { announced: u32, found: usize } =>
             "The number of triangles that the file announces ({announced}) does not go with its length: {found} read.",
+        "errors-stl-fewer" StlFewer { announced: u32, found: usize } =>
+            "The number of triangles that the file announces ({announced}) does not go with its length: {found} read. The file may be cut short.",
         "errors-stl-open" StlOpen => "The file may be cut short: its last solid has no end.",
         "errors-ply-trailing" PlyTrailing { bytes: usize } => "{bytes} bytes after the last element left out.",
         "errors-ply-unannounced" PlyUnannounced =>
@@ -28,6 +30,9 @@ messages! {
             "{count} curved face taken as flat: only its corners are kept.",
             "{count} curved faces taken as flat: only their corners are kept."
         ),
+        "errors-gltf-instances" GltfInstances =>
+            "Copies of meshes (EXT_mesh_gpu_instancing) left out: each is read once.",
+        "errors-gltf-morphs" GltfMorphs => "Morph targets left out: meshes are read in their base shape.",
         "errors-fanned" Fanned { count: usize } => (
             count,
             "{count} polygon could not be cut into triangles without folding, having no area or crossing itself.",

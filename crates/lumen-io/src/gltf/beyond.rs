@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use super::unpack::Packed;
 
@@ -38,9 +39,17 @@ struct View {
 #[serde(default)]
 struct Extensions {
     #[serde(rename = "EXT_meshopt_compression")]
-    ext: Option<Packed>,
+    ext: Option<Stated>,
     #[serde(rename = "KHR_meshopt_compression")]
-    khr: Option<Packed>,
+    khr: Option<Stated>,
+}
+
+/// What a view says of how it is packed: read by itself, so that one that is damaged spoils no other.
+#[derive(Clone, Deserialize)]
+#[serde(untagged)]
+pub(super) enum Stated {
+    Packed(Packed),
+    Damaged(IgnoredAny),
 }
 
 impl Beyond {
@@ -55,7 +64,7 @@ impl Beyond {
     }
 
     /// What each view says of how it is packed.
-    pub(super) fn take_packed(&mut self) -> Vec<Option<Packed>> {
+    pub(super) fn take_packed(&mut self) -> Vec<Option<Stated>> {
         let views = std::mem::take(&mut self.buffer_views).into_iter();
         views.map(|View { extensions: Extensions { ext, khr } }| khr.or(ext)).collect()
     }

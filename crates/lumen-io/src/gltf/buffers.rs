@@ -21,7 +21,7 @@ use super::super::memory_budget::MemoryBudget;
 use super::super::pace::{BYTES, NUMBERS, Pace};
 use super::super::problem::GltfProblem;
 use super::super::text::BASE64;
-use super::unpack::Packed;
+use super::beyond::Stated;
 use super::{FORMAT, malformed};
 
 /// How many times its file a mesh can honestly be that meshopt has packed: of triangles twelve bytes become one or two.
@@ -33,7 +33,7 @@ const DECODED: f64 = 0.5;
 pub(super) struct Buffers<'a> {
     contents: Vec<Result<Cow<'a, [u8]>, Named>>,
     /// Views that are packed, by their numbers, and those that are unpacked.
-    packed: Vec<Option<Packed>>,
+    packed: Vec<Option<Stated>>,
     unpacked: BTreeMap<usize, Vec<u8>>,
     unpacked_bytes: usize,
     /// The items of sparse accessors.
@@ -64,7 +64,7 @@ impl<'a> Buffers<'a> {
     pub(super) async fn new(
         root: &Root,
         binary: Option<&'a [u8]>,
-        packed: Vec<Option<Packed>>,
+        packed: Vec<Option<Stated>>,
         file: usize,
         pace: &Pace,
     ) -> Result<Self, ReadError> {
@@ -110,11 +110,10 @@ impl<'a> Buffers<'a> {
 
     /// Unpacks a view that is packed.
     async fn unpack(&mut self, view: usize, pace: &Pace) -> Result<(), ReadError> {
-        let Some(packed) = self.packed.get(view).cloned().flatten().filter(|_| !self.unpacked.contains_key(&view))
-        else {
-            return Ok(());
-        };
+        let stated = self.packed.get(view).cloned().flatten();
+        let Some(stated) = stated.filter(|_| !self.unpacked.contains_key(&view)) else { return Ok(()) };
         let damaged = || malformed(GltfProblem::Packed { view });
+        let Stated::Packed(packed) = stated else { return Err(damaged()) };
         self.make(packed.unpacked_length().ok_or_else(damaged)? as u64)?;
         let bytes = self.bytes(packed.buffer)?.ok_or_else(damaged)?;
         let bytes = bytes.get(packed.byte_offset..).and_then(|rest| rest.get(..packed.byte_length));

@@ -9,7 +9,8 @@
 //!
 //! Draco compression is refused by name: there is no decoder in Rust alone (`draco_decoder` binds the C++ one,
 //! `draco-oxide` has only the encoder yet). Meshopt compression is read (`unpack`). A skinned mesh stands as its skeleton
-//! does in the file (`skin`); animations and morph targets are passed over.
+//! does in the file (`skin`); animations are passed over. Morph targets and the
+//! copies of `EXT_mesh_gpu_instancing` are left out with a warning.
 //!
 //! By the specification (3.4) y is up, and the front of what is shown looks along z. Lumen has z up, as patients' axes do,
 //! and the front towards -y: what is read is turned by a right angle about x, what is written is turned back.

@@ -13,6 +13,7 @@ use super::super::pace::Pace;
 use super::super::problem::GltfProblem;
 use super::super::raw::RawSurface;
 use super::super::text;
+use super::super::warnings::Warning;
 use super::beyond::Beyond;
 use super::buffers::Buffers;
 use super::primitive::Collected;
@@ -71,6 +72,13 @@ pub(super) async fn read_scene(
         }
     }
     let Collected { mut raw, columns, .. } = collected;
+    if root.extensions_used.iter().any(|name| name == "EXT_mesh_gpu_instancing") {
+        raw.warnings.push(Warning::GltfInstances);
+    }
+    let mut primitives = tree.meshes.iter().filter_map(|(mesh, _)| root.get(*mesh)).flat_map(|mesh| &mesh.primitives);
+    if primitives.any(|primitive| primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty())) {
+        raw.warnings.push(Warning::GltfMorphs);
+    }
     raw.unpacked = buffers.unpacked_bytes();
     raw.carry(columns.finish(), buffers.budget());
     Ok(raw)

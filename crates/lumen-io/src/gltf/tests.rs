@@ -9,6 +9,7 @@ use super::super::output::Output;
 use super::super::pace::Pace;
 use super::super::raw::RawSurface;
 use super::super::text::BASE64;
+use super::super::warnings::Warning;
 use super::container::{read_binary, read_text};
 use super::write::write;
 use lumen_mesh::task::at_once;
@@ -143,6 +144,13 @@ fn meshopt_is_unpacked_into_places_and_triangles() {
         let damaged = strip(extension).replace("\"count\":48}}", "\"count\":45}}");
         let error = read(&damaged).err().unwrap().to_string();
         assert_eq!(error, "The glTF file is broken: its compressed view 1 is damaged, or of a kind that is not read.");
+        // What is wrong of one view does not hide the other, and is no reason where nothing takes the view.
+        for (from, to) in [("\"count\":48}}", "\"count\":48.0}}"), ("\"count\":48}}", "\"count\":48,\"filter\":1}}")] {
+            let error = read(&strip(extension).replace(from, to)).err().unwrap().to_string();
+            assert!(error.contains("compressed view 1 is damaged"), "{error}");
+            let unused = strip(extension).replace(from, to).replace(",\"indices\":1", "");
+            assert_eq!(read(&unused).unwrap().positions.len(), 18);
+        }
         let bomb = strip(extension).replace("\"count\":18}}", "\"count\":18000000}}");
         assert!(read(&bomb).err().unwrap().to_string().contains("would unfold to"));
     }
@@ -177,6 +185,17 @@ fn sparse_items_stand_in_place_of_others_or_of_zeros() {
             over_zeros.replace("\"count\":4,\"type\":\"VEC3\"", &format!("\"count\":{count},\"type\":\"VEC3\""));
         assert!(read(&wrong).err().unwrap().to_string().contains(problem));
     }
+}
+
+#[test]
+fn copies_and_morph_targets_are_told() {
+    let plain = strip("EXT_meshopt_compression");
+    assert!(read(&plain).unwrap().warnings.is_empty());
+    let copies = plain
+        .replace("\"extensionsRequired\"", "\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\"],\"extensionsRequired\"");
+    assert_eq!(read(&copies).unwrap().warnings, [Warning::GltfInstances]);
+    let morphs = plain.replace("\"indices\":1", "\"indices\":1,\"targets\":[{\"POSITION\":0}]");
+    assert_eq!(read(&morphs).unwrap().warnings, [Warning::GltfMorphs]);
 }
 
 #[test]

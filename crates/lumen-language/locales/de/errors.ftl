@@ -129,6 +129,7 @@ errors-vtk-field-type = ein Abschnitt „FIELD“ hat Werte eines unbekannten Ty
 
 errors-stl-trailing = { $bytes } Byte nach dem letzten Dreieck weggelassen.
 errors-stl-count = Die Zahl der Dreiecke, die die Datei ankündigt ({ $announced }), passt nicht zu ihrer Länge: { $found } gelesen.
+errors-stl-fewer = Die Zahl der Dreiecke, die die Datei ankündigt ({ $announced }), passt nicht zu ihrer Länge: { $found } gelesen. Die Datei ist vielleicht abgeschnitten.
 errors-stl-open = Die Datei ist vielleicht abgeschnitten: Ihr letzter Körper hat kein Ende.
 errors-ply-trailing = { $bytes } Byte nach dem letzten Element weggelassen.
 errors-ply-unannounced = Zahlen, die der Kopf der Datei nicht ankündigt, wurden weggelassen.
@@ -138,6 +139,8 @@ errors-vtk-curved = { $count ->
     [one] { $count } gekrümmte Fläche als eben gelesen: Nur ihre Ecken werden behalten.
    *[other] { $count } gekrümmte Flächen als eben gelesen: Nur ihre Ecken werden behalten.
 }
+errors-gltf-instances = Kopien von Netzen (EXT_mesh_gpu_instancing) weggelassen: Jedes wird einmal gelesen.
+errors-gltf-morphs = Morph-Ziele weggelassen: Netze werden in ihrer Grundform gelesen.
 errors-fanned = { $count ->
     [one] { $count } Vieleck konnte nicht ohne Falten in Dreiecke zerlegt werden, da es keine Fläche hat oder sich selbst schneidet.
    *[other] { $count } Vielecke konnten nicht ohne Falten in Dreiecke zerlegt werden, da sie keine Fläche haben oder sich selbst schneiden.

@@ -129,6 +129,7 @@ errors-vtk-field-type = un champ a des valeurs d'un type inconnu
 
 errors-stl-trailing = { $bytes } octets après le dernier triangle omis.
 errors-stl-count = Le nombre de triangles que le fichier annonce ({ $announced }) ne va pas avec sa longueur : { $found } lus.
+errors-stl-fewer = Le nombre de triangles que le fichier annonce ({ $announced }) ne va pas avec sa longueur : { $found } lus. Le fichier est peut-être tronqué.
 errors-stl-open = Le fichier est peut-être tronqué : son dernier solide n'a pas de fin.
 errors-ply-trailing = { $bytes } octets après le dernier élément omis.
 errors-ply-unannounced = Des nombres que l'en-tête du fichier n'annonce pas ont été omis.
@@ -138,6 +139,8 @@ errors-vtk-curved = { $count ->
     [one] { $count } face courbe prise comme plane : seuls ses coins sont gardés.
    *[other] { $count } faces courbes prises comme planes : seuls leurs coins sont gardés.
 }
+errors-gltf-instances = Copies de maillages (EXT_mesh_gpu_instancing) omises : chacun est lu une fois.
+errors-gltf-morphs = Cibles de morphing omises : les maillages sont lus dans leur forme de base.
 errors-fanned = { $count ->
     [one] { $count } polygone n'a pas pu être découpé en triangles sans repli : il n'a pas d'aire ou se croise lui-même.
    *[other] { $count } polygones n'ont pas pu être découpés en triangles sans repli : ils n'ont pas d'aire ou se croisent eux-mêmes.
