@@ -300,6 +300,28 @@ fn jpeg_2000_is_read() {
     }
 }
 
+/// What is announced in the first words of a picture would take much memory before the picture is found to be damaged.
+#[test]
+fn jpeg_2000_of_many_tiles_or_components_is_refused_without_room_for_them() {
+    let changed = |side: u32, at: usize, words: &[u8]| {
+        let mut slice = ramp(0, 0).with(0x0028, 0x0010, short(side as u16)).with(0x0028, 0x0011, short(side as u16));
+        let picture = &mut slice.fragments.as_mut().unwrap()[1];
+        picture[8..16].copy_from_slice(&[side.to_be_bytes(), side.to_be_bytes()].concat());
+        picture[at..at + words.len()].copy_from_slice(words);
+        slice
+    };
+    let one = 1u32.to_be_bytes();
+    // Tiles of one pixel, and of none; 255 components; a picture that is wider than the file says.
+    let tiny = changed(2000, 24, &[one, one].concat());
+    let broken = [tiny, changed(32, 24, &[0; 8]), changed(32, 40, &[0, 255]), changed(32, 8, &[0xFF; 4])];
+    for (n, slice) in broken.into_iter().enumerate() {
+        let _alone = crate::alone();
+        let (result, taken) = crate::open_measured(&[("a", slice.bytes())]);
+        assert!(matches!(result, Err(ScanError::File(_))), "{n}: {result:?}");
+        assert!(taken < 1_000_000, "{n}: {taken}");
+    }
+}
+
 #[test]
 fn frames_of_one_file_are_slices() {
     let one = File::slice(EXPLICIT, 0);
