@@ -88,9 +88,9 @@ pub(super) fn read(parts: &[&Part], choice: Option<usize>) -> Result<Scan, ScanE
         return Err(ScanError::Mixed { places: volume.mixed });
     }
     let mut scan = if segments::are(&volume.slices) {
-        segments::label_map(&volume)?
+        segments::label_map(&volume, &mut warnings)?
     } else {
-        scan(volume.slices, &mut unreadable, &mut warnings)?
+        scan(volume.slices.to_vec(), &mut unreadable, &mut warnings)?
     };
     warnings.extend(unreadable.warning());
     scan.warnings.splice(..0, warnings);
@@ -108,7 +108,7 @@ fn volumes_of<'f, 'a>((number, slices): (usize, Vec<Slice<'f, 'a>>)) -> Vec<(usi
 fn offers(volumes: &[(usize, Volume)]) -> Offers {
     let offer = |(series, volume): &(usize, Volume)| Offer {
         series: *series,
-        slices: volume.places(),
+        slices: volume.places,
         by: volume.by.as_ref().map(|(field, _)| *field),
         value: volume.by.as_ref().map_or_else(String::new, |(_, value)| value.clone()),
     };
@@ -223,24 +223,27 @@ fn step(slices: &[Slice], warnings: &mut Vec<Warning>) -> Result<DVec3, ScanErro
     };
     let steps = (slices.len() - 1) as f64;
     let distances: Vec<f64> = slices.windows(2).map(|two| two[1].height - two[0].height).collect();
+    warnings.extend(uneven(&distances));
+    Ok((last.position - first.position) / steps)
+}
+
+/// What is told of distances that differ: the one that differs most from the usual.
+fn uneven(distances: &[f64]) -> Option<Warning> {
     let usual = {
-        let mut sorted = distances.clone();
+        let mut sorted = distances.to_vec();
         sorted.sort_unstable_by(f64::total_cmp);
-        sorted[sorted.len() / 2]
+        *sorted.get(sorted.len() / 2)?
     };
     let off = |distance: f64| (distance - usual).abs();
-    let worst = (0..distances.len()).max_by(|&a, &b| off(distances[a]).total_cmp(&off(distances[b]))).unwrap_or(0);
-    let there = distances[worst];
-    if off(there) > usual * UNEVEN {
-        let (below, above) = (worst + 1, worst + 2);
-        let (is_wide, usual, there) = (there > usual, usual, there);
-        warnings.push(if is_wide {
+    let worst = (0..distances.len()).max_by(|&a, &b| off(distances[a]).total_cmp(&off(distances[b])))?;
+    let (there, below, above) = (distances[worst], worst + 1, worst + 2);
+    (off(there) > usual * UNEVEN).then(|| {
+        if there > usual {
             ScanWarning::Gap { usual, there, below, above }.into()
         } else {
             ScanWarning::Squeeze { usual, there, below, above }.into()
-        });
-    }
-    Ok((last.position - first.position) / steps)
+        }
+    })
 }
 
 /// The stored numbers of all slices, and what turns them into values. Where that differs from slice to slice, the values.
