@@ -371,7 +371,7 @@ fn the_series_of_most_slices_is_taken_and_the_rest_told_by_number() {
     assert_eq!(
         in_english(&scan.warnings),
         [
-            "The files hold 3 series: the one with most slices, 5, is taken, and 2 of 2 others are left out.",
+            "The files hold 3 series. The volume with most slices (4) is opened. Slices of 2 other series left out: 2.",
             "1 file holds no slice in shades of grey and is left out.",
             "1 slice is there twice: the same place and the same pixels; one is taken.",
         ]
@@ -427,6 +427,21 @@ fn place(k: usize, up: f64) -> Vec<u8> {
 fn open_volume(files: &Files, choice: Option<usize>) -> Result<Scan, ScanError> {
     let parts: Vec<Part> = files.iter().map(|(name, bytes)| Part { name, bytes }).collect();
     read_volume(&parts, choice)
+}
+
+#[test]
+fn a_volume_that_nothing_tells_apart_leaves_the_others_to_be_opened() {
+    let mixed = |file: File| file.with(0x0020, 0x000E, text("1.2.3.9")).without(0x0020, 0x0013);
+    let mut files = two(|_, _, file| mixed(file));
+    files.extend(series(EXPLICIT).into_iter().take(3));
+    let scan = open(&files).unwrap();
+    let told = in_english(&scan.warnings).join(" ");
+    assert!(scan.grid.geometry().size[2] == 3 && told.contains("1 volume is left out: several"), "{told}");
+    assert_eq!(open_volume(&files, Some(0)).unwrap_err(), ScanError::Mixed { places: 4 });
+    // Pixels that are not read are the reason, where they are.
+    let unread = two(|_, _, file| File { syntax: BASELINE, ..mixed(file) });
+    let told = open(&unread).unwrap_err().to_string();
+    assert!(!told.contains("Several slices"), "{told}");
 }
 
 /// How each is told apart, and by what: the two volumes are known, as they were put together.
@@ -686,17 +701,19 @@ fn segmentations_become_labels_with_names_or_volumes_where_they_overlap() {
 }
 
 /// A file of segment 1 in the pixels with `i == column`, with frames of `heights` in mm and elements more.
-fn segment_file(column: usize, name: &str, heights: &[f64], also: &[(u16, u16, &'static str, u16, u16, &str)]) -> File {
+fn segment_file(
+    column: usize,
+    name: &[u8],
+    heights: &[f64],
+    also: &[(u16, u16, &'static str, u16, u16, &str)],
+) -> File {
     let each = heights.iter().flat_map(|height| {
         let at = format!("-10\\20\\{}", 300.0 + height);
         groups(&[(0x0020, 0x9113, "DS", 0x0020, 0x0032, &at), (0x0062, 0x000A, "US", 0x0062, 0x000B, "1")])
     });
     let slice = (0..SIZE[0] * SIZE[1]).map(|at| u8::from(at % SIZE[0] == column)).collect::<Vec<_>>();
     let shared = groups(&[&[ORIENTED, SPACED], also].concat());
-    let segment = [
-        element(0x0062, 0x0004, "US", &short(1), EXPLICIT),
-        element(0x0062, 0x0005, "LO", &text(name), EXPLICIT),
-    ];
+    let segment = [element(0x0062, 0x0004, "US", &short(1), EXPLICIT), element(0x0062, 0x0005, "LO", name, EXPLICIT)];
     frames(&vec![0; heights.len()], shared, each.collect(), slice.repeat(heights.len()))
         .with(0x0028, 0x0100, short(8))
         .with(0x0028, 0x0101, short(8))
@@ -709,9 +726,9 @@ fn segment_file(column: usize, name: &str, heights: &[f64], also: &[(u16, u16, &
 fn segments_of_one_number_in_two_files_are_two_and_a_file_opened_twice_is_one() {
     let heights = [0.0, 2.0, 4.0];
     let named = |column, name, number| {
-        segment_file(column, name, &heights, &[]).also(0x0008, 0x0018, "UI", text(number)).bytes()
+        segment_file(column, name.as_bytes(), &heights, &[]).also(0x0008, 0x0018, "UI", text(number)).bytes()
     };
-    let (aorta, vein) = (named(0, "aorta", "1.1"), named(3, "vein", "1.2"));
+    let (aorta, vein) = (named(0, "aorta ", "1.1"), named(3, "vein", "1.2"));
     let scan = open(&[("a", aorta.clone()), ("b", vein.clone())]).unwrap();
     assert!(scan.warnings.is_empty(), "{:?}", scan.warnings);
     assert_eq!(scan.names, [(1, "aorta".to_owned()), (2, "vein".to_owned())]);
@@ -726,8 +743,16 @@ fn segments_of_one_number_in_two_files_are_two_and_a_file_opened_twice_is_one() 
 }
 
 #[test]
+fn names_of_segments_are_in_the_letters_that_the_file_names() {
+    for (letters, name) in [("ISO_IR 100", &b"Gef\xE4\xDF "[..]), ("ISO_IR 192", "Gef\u{e4}\u{df}".as_bytes())] {
+        let file = segment_file(0, &padded(name.to_vec()), &[0.0, 2.0], &[]).also(0x0008, 0x0005, "CS", text(letters));
+        assert_eq!(open(&[("a", file.bytes())]).unwrap().names, [(1, "Gef\u{e4}\u{df}".to_owned())], "{letters}");
+    }
+}
+
+#[test]
 fn uneven_segmentations_are_told_and_stated_distances_are_taken_where_they_can_be_so() {
-    let open = |heights: &[f64], stated: &[_]| open(&[("a", segment_file(0, "aorta", heights, stated).bytes())]);
+    let open = |heights: &[f64], stated: &[_]| open(&[("a", segment_file(0, b"aorta ", heights, stated).bytes())]);
     let between = |distance| (0x0028, 0x9110, "DS", 0x0018, 0x0088, distance);
     let uneven = open(&[0.0, 5.0, 12.0], &[]).unwrap();
     assert_eq!(uneven.grid.geometry().size[2], 3);
@@ -741,7 +766,7 @@ fn uneven_segmentations_are_told_and_stated_distances_are_taken_where_they_can_b
     // More slices than there can be.
     let far = open(&[0.0, 0.002, 9e8], &[]).unwrap_err();
     assert!(matches!(far, ScanError::Volume(_)), "{far:?}");
-    let bits = segment_file(0, "aorta", &[0.0, 2.0], &[]).with(0x0028, 0x0100, short(32));
+    let bits = segment_file(0, b"aorta ", &[0.0, 2.0], &[]).with(0x0028, 0x0100, short(32));
     let bits = crate::open(&[("a", bits.bytes())]).unwrap_err().to_string();
     assert_eq!(bits, "The DICOM file uses 32 bits a pixel, which Lumen does not read.");
 }

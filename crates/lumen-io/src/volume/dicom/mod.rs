@@ -67,7 +67,9 @@ pub(super) fn read(parts: &[&Part], choice: Option<usize>) -> Result<Scan, ScanE
     let sizes: Vec<usize> = series.iter().map(Vec::len).collect();
     let volumes: Vec<(usize, Volume)> = series.into_iter().enumerate().flat_map(volumes_of).collect();
     let offers = offers(&volumes);
-    let taken = choice.unwrap_or_else(|| offers.largest());
+    let mixed = volumes.iter().filter(|(_, volume)| volume.mixed > 0).count();
+    let is_open = |number: usize| volumes[number].1.mixed == 0 || mixed == volumes.len();
+    let taken = choice.unwrap_or_else(|| offers.largest(is_open));
     let mut volumes = volumes;
     if taken >= volumes.len() {
         return Err(ScanError::NoSuchVolume { number: taken + 1, count: volumes.len() });
@@ -75,8 +77,11 @@ pub(super) fn read(parts: &[&Part], choice: Option<usize>) -> Result<Scan, ScanE
     let (number, volume) = volumes.swap_remove(taken);
     let mut warnings = Vec::new();
     if choice.is_none() {
-        warnings.extend(others(&sizes, number));
+        warnings.extend(others(&sizes, number, volume.places));
         warnings.extend(offers.warning(number, taken));
+        if mixed > 0 {
+            warnings.push(ScanWarning::MixedLeftOut { count: mixed }.into());
+        }
     }
     if empty > 0 {
         warnings.push(ScanWarning::NoSlices { count: empty }.into());
@@ -85,7 +90,9 @@ pub(super) fn read(parts: &[&Part], choice: Option<usize>) -> Result<Scan, ScanE
         warnings.push(ScanWarning::SamePlace { count: volume.twice }.into());
     }
     if volume.mixed > 0 {
-        return Err(ScanError::Mixed { places: volume.mixed });
+        // Pixels that cannot be read are never the same.
+        let unread = volume.shared().find_map(|slice| pixels::frame(slice.file, slice.frame).err());
+        return Err(unread.unwrap_or(ScanError::Mixed { places: volume.mixed }));
     }
     let mut scan = if segments::are(&volume.slices) {
         segments::label_map(&volume, &mut warnings)?
@@ -115,11 +122,12 @@ fn offers(volumes: &[(usize, Volume)]) -> Offers {
     Offers { list: volumes.iter().map(offer).collect() }
 }
 
-/// What is told of the series beside number `taken`, of which there are so many slices each.
-fn others(sizes: &[usize], taken: usize) -> Option<Warning> {
+/// What is told of the series beside number `series`, of whose volumes one of `taken` slices is opened; `sizes` are the slices
+/// of each series.
+fn others(sizes: &[usize], series: usize, taken: usize) -> Option<Warning> {
     let others = sizes.len() - 1;
-    let slices = sizes.iter().sum::<usize>() - sizes[taken];
-    (others > 0).then(|| ScanWarning::Series { count: others + 1, taken: sizes[taken], slices, others }.into())
+    let slices = sizes.iter().sum::<usize>() - sizes[series];
+    (others > 0).then(|| ScanWarning::Series { count: others + 1, taken, slices, others }.into())
 }
 
 /// The volume of slices.
@@ -174,16 +182,20 @@ fn missing(what: DicomProblem) -> ScanError {
 
 /// The slices of all files, each with its place, those of a kind together: images first, then segments.
 fn series<'f, 'a>(files: &'f [File<'a>], unreadable: &mut Unreadable) -> Vec<Vec<Slice<'f, 'a>>> {
+    /// Series are looked back at: slices that each have a direction of their own are of as many.
+    const LOOKED_AT: usize = 256;
     let mut series: Vec<Vec<Slice>> = Vec::new();
     for file in files.iter().filter(|file| file.holds_slices()) {
         for frame in 0..file.held_frames() {
             match placed(file, frame) {
                 Err(what) => unreadable.add(missing(what)),
                 // Most belong to the one before.
-                Ok(slice) => match series.iter_mut().rev().find(|group| belong_together(&group[0], &slice)) {
-                    Some(group) => group.push(slice),
-                    None => series.push(vec![slice]),
-                },
+                Ok(slice) => {
+                    match series.iter_mut().rev().take(LOOKED_AT).find(|group| belong_together(&group[0], &slice)) {
+                        Some(group) => group.push(slice),
+                        None => series.push(vec![slice]),
+                    }
+                }
             }
         }
     }

@@ -155,7 +155,10 @@ impl Announced {
         let [end, start, tile, first_tile] = [pair(8)?, pair(16)?, pair(24)?, pair(32)?];
         let along = |axis: usize| end[axis].checked_sub(start[axis]);
         let tiles = |axis: usize| {
-            (tile[axis] > 0).then(|| end[axis].checked_sub(first_tile[axis])).flatten().map(|all| all.div_ceil(tile[axis]))
+            (tile[axis] > 0)
+                .then(|| end[axis].checked_sub(first_tile[axis]))
+                .flatten()
+                .map(|all| all.div_ceil(tile[axis]))
         };
         let (size, is_signed) = ([along(0)?, along(1)?], packed.get(DEPTH)? & 0x80 != 0);
         Some(Self { size, tiles: tiles(0)?.checked_mul(tiles(1)?)?, is_signed })

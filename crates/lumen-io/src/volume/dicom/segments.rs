@@ -88,8 +88,7 @@ impl Segments {
         let is_clear = numbers.len() == identities.len() && !numbers.contains(&0);
         let label = |(count, segment): (u16, Identity)| (segment, if is_clear { segment.number } else { count });
         let labels: BTreeMap<Identity, u16> = (1..=u16::MAX).zip(identities).map(label).collect();
-        let files: BTreeMap<usize, &File> =
-            slices.iter().map(|slice| (Identity::of(slice).file, slice.file)).collect();
+        let files: BTreeMap<usize, &File> = slices.iter().map(|slice| (Identity::of(slice).file, slice.file)).collect();
         let mut said = BTreeMap::new();
         for file in files.into_values() {
             for (number, name) in file.segments() {

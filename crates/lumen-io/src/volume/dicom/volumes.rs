@@ -75,6 +75,11 @@ impl<'f, 'a> Volume<'f, 'a> {
         let places = places(&slices).count();
         Self { slices: slices.into(), places, by, segment: None, twice, mixed }
     }
+
+    /// The slices that share a place with others.
+    pub(super) fn shared(&self) -> impl Iterator<Item = &Slice<'f, 'a>> {
+        places(&self.slices).filter(|place| place.len() > 1).flatten()
+    }
 }
 
 /// Volumes that a field makes, each with what it has there.
