@@ -725,7 +725,7 @@ fn segment_file(
 #[test]
 fn segments_of_one_number_in_two_files_are_two_and_a_file_opened_twice_is_one() {
     let heights = [0.0, 2.0, 4.0];
-    let named = |column, name, number| {
+    let named = |column, name: &str, number| {
         segment_file(column, name.as_bytes(), &heights, &[]).also(0x0008, 0x0018, "UI", text(number)).bytes()
     };
     let (aorta, vein) = (named(0, "aorta ", "1.1"), named(3, "vein", "1.2"));

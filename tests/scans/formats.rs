@@ -339,16 +339,13 @@ fn labels_of_layers_beyond_a_map_are_numbered_anew_or_refused() {
         let header = nrrd("raw", "Segment0_Name:=aorta\nSegment0_LabelValue:=70000\nSegment0_Layer:=1\n\n")
             .replace("type: short", "type: uint")
             .replace("dimension: 3", "dimension: 4")
-            .replace(
-                &format!("sizes: {} {} {}", SIZE[0], SIZE[1], SIZE[2]),
-                &format!("sizes: 2 {} {} {}", size[0], size[1], size[2]),
-            )
+            .replace("sizes: 6 5 4", &format!("sizes: 2 {} {} {}", size[0], size[1], size[2]))
             .replace("directions: ", "directions: none ")
             .replace("kinds: ", "kinds: list ");
         let numbers = (0..size.iter().product::<usize>()).flat_map(|at| [0, second(at)]).flat_map(u32::to_le_bytes);
         open(&[("a.nrrd", [header.into_bytes(), numbers.collect()].concat())])
     };
-    let scan = layers(&|at| if at == 0 { 70_000 } else { 0 }, SIZE).unwrap();
+    let scan = layers(&|at| if at == 0 { 70_000 } else { 0 }, [6, 5, 4]).unwrap();
     assert_eq!((scan.grid.value([0, 0, 0]), &scan.names[..]), (1.0, &[(1, "aorta".to_owned())][..]));
     let many = layers(&|at| at as u32, [300, 300, 2]).unwrap_err().to_string();
     assert!(many.contains("labels, the most that a map can have"), "{many}");

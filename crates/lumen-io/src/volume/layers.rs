@@ -2,11 +2,12 @@
 //!
 //! Where none overlap they become one map. Where they do no map can hold them, and each layer is a volume of its own.
 
+use std::collections::BTreeMap;
+
 use super::super::offer::{Offer, VolumeField};
 use super::super::problem::ScanProblem;
 use super::error::ScanError;
 use super::outline::Offers;
-use hashbrown::HashMap;
 use lumen_volume::{SampleType, Samples};
 
 /// A segment: a label of a layer.
@@ -76,9 +77,9 @@ impl Layers {
 
     /// The number that each label of each layer has in one map: the label itself where no two layers have the same one and all are
     /// whole numbers of 16 bits, else its place among them, first those of segments and then others.
-    fn numbers(&self, samples: &Samples, format: &'static str) -> Result<Vec<HashMap<u64, u16>>, ScanError> {
+    fn numbers(&self, samples: &Samples, format: &'static str) -> Result<Vec<BTreeMap<u64, u16>>, ScanError> {
         let too_many = || ScanError::malformed(format, ScanProblem::ManyLabels { most: u16::MAX.into() });
-        let mut numbers = vec![HashMap::new(); self.count];
+        let mut numbers = vec![BTreeMap::new(); self.count];
         let mut labels: Vec<(usize, f64)> = Vec::new();
         let stored = (0..samples.len()).map(|at| (at % self.count, samples.stored(at)));
         let of_segments = self.segments.iter().map(|segment| (segment.layer, segment.label as f64));

@@ -43,7 +43,11 @@ pub(super) fn split<'f, 'a>(mut slices: Vec<Slice<'f, 'a>>) -> Vec<Volume<'f, 'a
         a.height.total_cmp(&b.height).then_with(|| number(a).cmp(&number(b)))
     });
     let all = slices.len();
-    slices.dedup_by(|next, kept| Identity::of(next).number == Identity::of(kept).number && is_twin(next, kept));
+    let names = names(&slices);
+    slices.dedup_by(|next, kept| {
+        let (next_of, kept_of) = (Identity::of(next), Identity::of(kept));
+        next_of.number == kept_of.number && names.get(&next_of) == names.get(&kept_of) && is_twin(next, kept)
+    });
     let (twice, places) = (all - slices.len(), places(&slices).count());
     let segments = Segments::of(&slices);
     let slices = Rc::from(slices);
@@ -88,13 +92,7 @@ impl Segments {
         let is_clear = numbers.len() == identities.len() && !numbers.contains(&0);
         let label = |(count, segment): (u16, Identity)| (segment, if is_clear { segment.number } else { count });
         let labels: BTreeMap<Identity, u16> = (1..=u16::MAX).zip(identities).map(label).collect();
-        let files: BTreeMap<usize, &File> = slices.iter().map(|slice| (Identity::of(slice).file, slice.file)).collect();
-        let mut said = BTreeMap::new();
-        for file in files.into_values() {
-            for (number, name) in file.segments() {
-                said.entry(Identity::new(file, number)).or_insert(name);
-            }
-        }
+        let said = names(slices);
         let name = |(segment, &label): (&Identity, &u16)| {
             (label, said.get(segment).cloned().unwrap_or_else(|| label.to_string()))
         };
@@ -105,6 +103,13 @@ impl Segments {
     fn label(&self, slice: &Slice) -> u16 {
         self.labels.get(&Identity::of(slice)).copied().unwrap_or(0)
     }
+}
+
+/// The names that the files of slices have for their segments.
+fn names(slices: &[Slice]) -> BTreeMap<Identity, String> {
+    let files: BTreeMap<usize, &File> = slices.iter().map(|slice| (Identity::of(slice).file, slice.file)).collect();
+    let of_file = |file| File::segments(file).map(move |(number, name)| (Identity::new(file, number), name));
+    files.into_values().flat_map(of_file).collect()
 }
 
 /// Whether a pixel is of two segments, of frames in order of height.
