@@ -742,6 +742,23 @@ fn segments_of_one_number_in_two_files_are_two_and_a_file_opened_twice_is_one() 
     assert_eq!(in_english(&twice.warnings).len(), 1, "three slices are there twice");
 }
 
+/// Each of 400 segments is a volume, and all have the same 800 frames: 36 MB if each kept them.
+#[test]
+fn segments_that_overlap_share_their_frames() {
+    let each = (0..800).flat_map(|n| {
+        let (at, segment) = (format!("-10\\20\\{}", 300 + n % 2), (1 + n / 2).to_string());
+        groups(&[(0x0020, 0x9113, "DS", 0x0020, 0x0032, &at), (0x0062, 0x000A, "US", 0x0062, 0x000B, &segment)])
+    });
+    let file = frames(&[0; 800], groups(&[ORIENTED, SPACED]), each.collect(), vec![1; 800 * SIZE[0] * SIZE[1]])
+        .with(0x0028, 0x0100, short(8))
+        .also(0x0062, 0x0001, "CS", text("BINARY"));
+    let _alone = crate::alone();
+    let (scan, taken) = crate::open_measured(&[("a", file.bytes())]);
+    let scan = scan.unwrap();
+    assert_eq!((scan.offers.len(), scan.grid.value([0, 0, 1])), (400, 1.0));
+    assert!(taken < 4_000_000, "{taken}");
+}
+
 #[test]
 fn names_of_segments_are_in_the_letters_that_the_file_names() {
     for (letters, name) in [("ISO_IR 100", &b"Gef\xE4\xDF "[..]), ("ISO_IR 192", "Gef\u{e4}\u{df}".as_bytes())] {
