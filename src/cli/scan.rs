@@ -155,10 +155,15 @@ impl Opened {
         let geometry = self.grid.geometry();
         let list = |values: [f64; 3]| values.map(|value| format!("{value:.4}")).join(", ");
         let [i, j, k] = geometry.size;
+        let has_series = self.offers.iter().any(|offer| offer.series != self.offers[0].series);
         for (at, Offer { slices, by, value, series }) in
             self.offers.iter().enumerate().filter(|_| self.offers.len() > 1)
         {
-            let what = by.map_or_else(|| format!("series {}", series + 1), |by| format!("{by} {value}"));
+            let what = match by {
+                Some(by) if has_series => format!("series {}, {by} {value}", series + 1),
+                Some(by) => format!("{by} {value}"),
+                None => format!("series {}", series + 1),
+            };
             let taken = if at == self.taken { ", opened" } else { "" };
             row(&format!("volume {}", at + 1), format!("{slices} slices, {what}{taken}"));
         }

@@ -300,6 +300,28 @@ fn jpeg_2000_is_read() {
     }
 }
 
+/// What is announced in the first words of a picture would take much memory before the picture is found to be damaged.
+#[test]
+fn jpeg_2000_of_many_tiles_or_components_is_refused_without_room_for_them() {
+    let changed = |side: u32, at: usize, words: &[u8]| {
+        let mut slice = ramp(0, 0).with(0x0028, 0x0010, short(side as u16)).with(0x0028, 0x0011, short(side as u16));
+        let picture = &mut slice.fragments.as_mut().unwrap()[1];
+        picture[8..16].copy_from_slice(&[side.to_be_bytes(), side.to_be_bytes()].concat());
+        picture[at..at + words.len()].copy_from_slice(words);
+        slice
+    };
+    let one = 1u32.to_be_bytes();
+    // Tiles of one pixel, and of none; 255 components; a picture that is wider than the file says.
+    let tiny = changed(2000, 24, &[one, one].concat());
+    let broken = [tiny, changed(32, 24, &[0; 8]), changed(32, 40, &[0, 255]), changed(32, 8, &[0xFF; 4])];
+    for (n, slice) in broken.into_iter().enumerate() {
+        let _alone = crate::alone();
+        let (result, taken) = crate::open_measured(&[("a", slice.bytes())]);
+        let refused = result.unwrap_err().to_string();
+        assert!(refused.contains("JPEG picture") && taken < 1_000_000, "{n}: {refused} {taken}");
+    }
+}
+
 #[test]
 fn frames_of_one_file_are_slices() {
     let one = File::slice(EXPLICIT, 0);
@@ -349,7 +371,7 @@ fn the_series_of_most_slices_is_taken_and_the_rest_told_by_number() {
     assert_eq!(
         in_english(&scan.warnings),
         [
-            "The files hold 3 series: the one with most slices, 5, is taken, and 2 of 2 others are left out.",
+            "The files hold 3 series. The volume with most slices (4) is opened. Slices of 2 other series left out: 2.",
             "1 file holds no slice in shades of grey and is left out.",
             "1 slice is there twice: the same place and the same pixels; one is taken.",
         ]
@@ -405,6 +427,21 @@ fn place(k: usize, up: f64) -> Vec<u8> {
 fn open_volume(files: &Files, choice: Option<usize>) -> Result<Scan, ScanError> {
     let parts: Vec<Part> = files.iter().map(|(name, bytes)| Part { name, bytes }).collect();
     read_volume(&parts, choice)
+}
+
+#[test]
+fn a_volume_that_nothing_tells_apart_leaves_the_others_to_be_opened() {
+    let mixed = |file: File| file.with(0x0020, 0x000E, text("1.2.3.9")).without(0x0020, 0x0013);
+    let mut files = two(|_, _, file| mixed(file));
+    files.extend(series(EXPLICIT).into_iter().take(3));
+    let scan = open(&files).unwrap();
+    let told = in_english(&scan.warnings).join(" ");
+    assert!(scan.grid.geometry().size[2] == 3 && told.contains("1 volume is left out: several"), "{told}");
+    assert_eq!(open_volume(&files, Some(0)).unwrap_err(), ScanError::Mixed { places: 4 });
+    // Pixels that are not read are the reason, where they are.
+    let unread = two(|_, _, file| File { syntax: BASELINE, ..mixed(file) });
+    let told = open(&unread).unwrap_err().to_string();
+    assert!(!told.contains("Several slices"), "{told}");
 }
 
 /// How each is told apart, and by what: the two volumes are known, as they were put together.
@@ -661,6 +698,94 @@ fn segmentations_become_labels_with_names_or_volumes_where_they_overlap() {
                 .all(|[i, j, k]| second.grid.value([i, j, k]) == if i > 0 && (k == 0 || k == 3) { 2.0 } else { 0.0 })
         );
     }
+}
+
+/// A file of segment 1 in the pixels with `i == column`, with frames of `heights` in mm and elements more.
+fn segment_file(
+    column: usize,
+    name: &[u8],
+    heights: &[f64],
+    also: &[(u16, u16, &'static str, u16, u16, &str)],
+) -> File {
+    let each = heights.iter().flat_map(|height| {
+        let at = format!("-10\\20\\{}", 300.0 + height);
+        groups(&[(0x0020, 0x9113, "DS", 0x0020, 0x0032, &at), (0x0062, 0x000A, "US", 0x0062, 0x000B, "1")])
+    });
+    let slice = (0..SIZE[0] * SIZE[1]).map(|at| u8::from(at % SIZE[0] == column)).collect::<Vec<_>>();
+    let shared = groups(&[&[ORIENTED, SPACED], also].concat());
+    let segment = [element(0x0062, 0x0004, "US", &short(1), EXPLICIT), element(0x0062, 0x0005, "LO", name, EXPLICIT)];
+    frames(&vec![0; heights.len()], shared, each.collect(), slice.repeat(heights.len()))
+        .with(0x0028, 0x0100, short(8))
+        .with(0x0028, 0x0101, short(8))
+        .with(0x0008, 0x0060, text("SEG"))
+        .also(0x0062, 0x0001, "CS", text("BINARY"))
+        .also(0x0062, 0x0002, "SQ", item(&segment.concat()))
+}
+
+#[test]
+fn segments_of_one_number_in_two_files_are_two_and_a_file_opened_twice_is_one() {
+    let heights = [0.0, 2.0, 4.0];
+    let named = |column, name: &str, number| {
+        segment_file(column, name.as_bytes(), &heights, &[]).also(0x0008, 0x0018, "UI", text(number)).bytes()
+    };
+    let (aorta, vein) = (named(0, "aorta ", "1.1"), named(3, "vein", "1.2"));
+    let scan = open(&[("a", aorta.clone()), ("b", vein.clone())]).unwrap();
+    assert!(scan.warnings.is_empty(), "{:?}", scan.warnings);
+    assert_eq!(scan.names, [(1, "aorta".to_owned()), (2, "vein".to_owned())]);
+    assert_eq!([0, 1, 3].map(|i| scan.grid.value([i, 0, 2])), [1.0, 0.0, 2.0]);
+    // Where they overlap, too.
+    let files = vec![("a", aorta.clone()), ("b", named(0, "vein", "1.2"))];
+    let second = open_volume(&files, Some(1)).unwrap();
+    assert_eq!((second.offers.len(), second.offers[1].slices, second.grid.value([0, 0, 0])), (2, 3, 2.0));
+    let twice = open(&[("a", aorta.clone()), ("b", aorta)]).unwrap();
+    assert_eq!((twice.names, twice.offers.len()), (vec![(1, "aorta".to_owned())], 1));
+    assert_eq!(in_english(&twice.warnings).len(), 1, "three slices are there twice");
+}
+
+/// Each of 400 segments is a volume, and all have the same 800 frames: 36 MB if each kept them.
+#[test]
+fn segments_that_overlap_share_their_frames() {
+    let each = (0..800).flat_map(|n| {
+        let (at, segment) = (format!("-10\\20\\{}", 300 + n % 2), (1 + n / 2).to_string());
+        groups(&[(0x0020, 0x9113, "DS", 0x0020, 0x0032, &at), (0x0062, 0x000A, "US", 0x0062, 0x000B, &segment)])
+    });
+    let file = frames(&[0; 800], groups(&[ORIENTED, SPACED]), each.collect(), vec![1; 800 * SIZE[0] * SIZE[1]])
+        .with(0x0028, 0x0100, short(8))
+        .also(0x0062, 0x0001, "CS", text("BINARY"));
+    let _alone = crate::alone();
+    let (scan, taken) = crate::open_measured(&[("a", file.bytes())]);
+    let scan = scan.unwrap();
+    assert_eq!((scan.offers.len(), scan.grid.value([0, 0, 1])), (400, 1.0));
+    assert!(taken < 4_000_000, "{taken}");
+}
+
+#[test]
+fn names_of_segments_are_in_the_letters_that_the_file_names() {
+    for (letters, name) in [("ISO_IR 100", &b"Gef\xE4\xDF "[..]), ("ISO_IR 192", "Gef\u{e4}\u{df}".as_bytes())] {
+        let file = segment_file(0, &padded(name.to_vec()), &[0.0, 2.0], &[]).also(0x0008, 0x0005, "CS", text(letters));
+        assert_eq!(open(&[("a", file.bytes())]).unwrap().names, [(1, "Gef\u{e4}\u{df}".to_owned())], "{letters}");
+    }
+}
+
+#[test]
+fn uneven_segmentations_are_told_and_stated_distances_are_taken_where_they_can_be_so() {
+    let open = |heights: &[f64], stated: &[_]| open(&[("a", segment_file(0, b"aorta ", heights, stated).bytes())]);
+    let between = |distance| (0x0028, 0x9110, "DS", 0x0018, 0x0088, distance);
+    let uneven = open(&[0.0, 5.0, 12.0], &[]).unwrap();
+    assert_eq!(uneven.grid.geometry().size[2], 3);
+    assert!(in_english(&uneven.warnings)[0].contains("not evenly apart"), "{:?}", uneven.warnings);
+    for (stated, slices) in [("2", 4), ("1", 7), ("600", 4)] {
+        let scan = open(&[0.0, 2.0, 6.0], &[between(stated)]).unwrap();
+        let geometry = scan.grid.geometry();
+        assert_eq!((geometry.size[2], geometry.spacing.z * (slices - 1) as f64), (slices, 6.0), "{stated}");
+        assert!(scan.warnings.is_empty(), "{:?}", scan.warnings);
+    }
+    // More slices than there can be.
+    let far = open(&[0.0, 0.002, 9e8], &[]).unwrap_err();
+    assert!(matches!(far, ScanError::Volume(_)), "{far:?}");
+    let bits = segment_file(0, b"aorta ", &[0.0, 2.0], &[]).with(0x0028, 0x0100, short(32));
+    let bits = crate::open(&[("a", bits.bytes())]).unwrap_err().to_string();
+    assert_eq!(bits, "The DICOM file uses 32 bits a pixel, which Lumen does not read.");
 }
 
 #[test]

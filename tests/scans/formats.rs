@@ -230,7 +230,7 @@ fn a_matrix_that_is_none_gives_way_to_the_quaternion_and_that_is_told_once() {
         (280..328).step_by(4).for_each(|at| header[at..at + 4].copy_from_slice(&matrix.to_le_bytes()));
         let scan = open(&[("a.nii", [header.clone(), little()].concat())]).unwrap();
         assert_is_it(&scan, "by quaternion");
-        let told = "The matrix (sform) of the NIfTI file is none, though it should be the one to use: its quaternion (qform) is taken.";
+        let told = "The NIfTI file's matrix (sform) is unusable: its directions span no space. The quaternion (qform) is used instead.";
         assert_eq!((scan.axes, in_english(&scan.warnings)), (Axes::Lps, vec![told.to_owned()]));
         header[252] = 0;
         let scan = open(&[("a.nii", [header, little()].concat())]).unwrap();
@@ -322,8 +322,33 @@ fn layers_of_a_segmentation_are_one_map_or_a_volume_each() {
         );
     }
     assert_eq!(read(Some(2)).unwrap_err(), ScanError::NoSuchVolume { number: 3, count: 2 });
+    // A label that names no segment keeps its own number, unless a segment of the other layer has it.
+    let scan = open(&[("a.nrrd", layered(|[i, ..]| if i > 4 { 7 } else { 0 }, names))]).unwrap();
+    assert_eq!(scan.grid.value([5, 0, 0]), 3.0, "two segments are 1");
+    let one = "Segment0_Name:=aorta\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n\n";
+    let scan = open(&[("a.nrrd", layered(|[i, ..]| if i > 4 { 7 } else { 0 }, one))]).unwrap();
+    assert_eq!([0, 3, 5].map(|i| scan.grid.value([i, 0, 0])), [1.0, 0.0, 7.0]);
     let times = layered(|_| 0, "\n");
     assert!(open(&[("a.nrrd", times)]).unwrap_err().to_string().contains("more than three dimensions"));
+}
+
+/// Labels of 32 bits in layers whose map has 16.
+#[test]
+fn labels_of_layers_beyond_a_map_are_numbered_anew_or_refused() {
+    let layers = |second: &dyn Fn(usize) -> u32, size: [usize; 3]| {
+        let header = nrrd("raw", "Segment0_Name:=aorta\nSegment0_LabelValue:=70000\nSegment0_Layer:=1\n\n")
+            .replace("type: short", "type: uint")
+            .replace("dimension: 3", "dimension: 4")
+            .replace("sizes: 6 5 4", &format!("sizes: 2 {} {} {}", size[0], size[1], size[2]))
+            .replace("directions: ", "directions: none ")
+            .replace("kinds: ", "kinds: list ");
+        let numbers = (0..size.iter().product::<usize>()).flat_map(|at| [0, second(at)]).flat_map(u32::to_le_bytes);
+        open(&[("a.nrrd", [header.into_bytes(), numbers.collect()].concat())])
+    };
+    let scan = layers(&|at| if at == 0 { 70_000 } else { 0 }, [6, 5, 4]).unwrap();
+    assert_eq!((scan.grid.value([0, 0, 0]), &scan.names[..]), (1.0, &[(1, "aorta".to_owned())][..]));
+    let many = layers(&|at| at as u32, [300, 300, 2]).unwrap_err().to_string();
+    assert!(many.contains("labels, the most that a map can have"), "{many}");
 }
 
 /// Reads a volume of which so many bytes of each file are known at first, in pieces of seven; `None` where it has to be read

@@ -59,6 +59,7 @@ messages! {
         "scan-not-numbers" NotNumbers { key: &'static str, count: usize } => "\"{key}\" is not {count} numbers",
         "scan-no-data-file" NoDataFile { key: &'static str } => "its header does not say where the numbers are ({key})",
         "scan-axes" Axes { axes: i64 } => "it has {axes} axes",
+        "scan-many-labels" ManyLabels { most: usize } => "its layers hold more than {most} labels, the most that a map can have",
     }
 }
 

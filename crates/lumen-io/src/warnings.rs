@@ -133,9 +133,9 @@ messages! {
         "scan-unknown-unit" UnknownUnit { format: String, unit: String } =>
             "The unit of length of the {format} file, {unit}, is not known: it is taken as mm.",
         "scan-nifti-no-matrix" NoMatrix =>
-            "The matrix (sform) of the NIfTI file is none, though it should be the one to use: its quaternion (qform) is taken.",
+            "The NIfTI file's matrix (sform) is unusable: its directions span no space. The quaternion (qform) is used instead.",
         "scan-nifti-no-place" NoPlace =>
-            "The matrix (sform) of the NIfTI file is none, and it has no quaternion (qform): its spacings are taken.",
+            "The NIfTI file's matrix (sform) is unusable: its directions span no space. There is no usable quaternion (qform), and the spacings are used instead.",
         "scan-nifti-spacings" Spacings { matrix: f64 [3], stated: f64 [3] } =>
             "The NIfTI file contradicts itself: by its matrix (sform) voxels are {matrix:.3} mm apart, by its spacings {stated:.3} mm. The matrix is taken.",
         "scan-dicom-unreadable" Unreadable { count: usize, why: Told } => {
@@ -153,14 +153,19 @@ messages! {
             },
         "scan-dicom-series" Series { count: usize, taken: usize, slices: usize, others: usize } => {
             let of = match *others {
-                1 => "the other".to_owned(),
-                others => format!("{} others", grouped(others)),
+                1 => "the other series".to_owned(),
+                others => format!("{} other series", grouped(others)),
             };
-            let count = grouped(*count);
-            format!("The files hold {count} series: the one with most slices, {taken}, is taken, and {slices} of {of} are left out.")
+            let (count, taken, slices) = (grouped(*count), grouped(*taken), grouped(*slices));
+            format!("The files hold {count} series. The volume with most slices ({taken}) is opened. Slices of {of} left out: {slices}.")
         },
+        "scan-dicom-mixed-left-out" MixedLeftOut { count: usize } => (
+            count,
+            "{count} volume is left out: several of its slices lie at one place, and nothing in the files says which volume each is of.",
+            "{count} volumes are left out: several of their slices lie at one place, and nothing in the files says which volume each is of."
+        ),
         "scan-volumes" Volumes { count: usize, by: VolumeField, list: String, taken: String } =>
-            "The files hold {count} volumes of one series, told apart by {by}; each with its number of slices: {list}. Opened is {taken}.",
+            "The files hold {count} volumes of one series, told apart by {by}; each with its number of slices: {list}. Volume {taken} is open.",
         "scan-dicom-no-slices" NoSlices { count: usize } =>
             {
                 match count {

@@ -91,14 +91,17 @@ fn threshold(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
 }
 
 fn volumes(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
+    let opened = &scan.opened;
+    let has_series = opened.offers.iter().any(|offer| offer.series != opened.offers[0].series);
     let text = |Offer { series, slices, by, value }: &Offer| {
+        let series = say!("scan-volume-series", number = series + 1);
         let what = match by {
+            Some(by) if has_series => format!("{series}, {} {value}", tell(by)),
             Some(by) => format!("{} {value}", tell(by)),
-            None => say!("scan-volume-series", number = series + 1),
+            None => series,
         };
         say!("scan-volume-offer", what = what, slices = *slices)
     };
-    let opened = &scan.opened;
     row(ui, &say!("scan-volume"), &say!("scan-volume-help"), |ui| {
         let chosen = opened.offers.get(opened.taken).map_or_else(String::new, text);
         let list = ComboBox::from_id_salt("volume").selected_text(chosen).show_ui(ui, |ui| {

@@ -2,7 +2,10 @@
 //!
 //! Where none overlap they become one map. Where they do no map can hold them, and each layer is a volume of its own.
 
+use std::collections::BTreeMap;
+
 use super::super::offer::{Offer, VolumeField};
+use super::super::problem::ScanProblem;
 use super::error::ScanError;
 use super::outline::Offers;
 use lumen_volume::{SampleType, Samples};
@@ -37,8 +40,8 @@ pub(super) struct Unfolded {
 }
 
 impl Layers {
-    /// Makes one map out of the numbers, whose grid has so many slices.
-    pub(super) fn unfold(self, samples: Samples, slices: usize) -> Result<Unfolded, ScanError> {
+    /// Makes one map out of the numbers of a file of this format, whose grid has so many slices.
+    pub(super) fn unfold(self, samples: Samples, slices: usize, format: &'static str) -> Result<Unfolded, ScanError> {
         let (count, choice) = (self.count, self.choice);
         let points = samples.len() / count.max(1);
         let at = |point: usize, layer: usize| samples.stored(point * count + layer);
@@ -60,19 +63,43 @@ impl Layers {
             let names = of_layer.map(|segment| (segment.label, segment.name)).collect();
             return Ok(Unfolded { samples: map, names, offers, taken });
         }
-        // A label may be there in several layers, for another segment in each: then they are counted.
-        let labels: Vec<i64> = self.segments.iter().map(|segment| segment.label).collect();
-        let is_clear = (1..labels.len()).all(|at| !labels[..at].contains(&labels[at]));
-        let number = |at: usize| if is_clear { labels[at] } else { at as i64 + 1 };
-        let label = |layer: usize, stored: f64| {
-            let is_it = |segment: &Segment| segment.layer == layer && segment.label as f64 == stored;
-            self.segments.iter().position(is_it).map_or(stored, |at| number(at) as f64)
-        };
+        let numbers = self.numbers(&samples, format)?;
         let map = map(SampleType::U16, points, |point| {
-            (0..count).map(|layer| label(layer, at(point, layer))).find(|&label| label != 0.0).unwrap_or(0.0)
+            let mut inside = (0..count).map(|layer| (layer, at(point, layer)));
+            let found = inside.find(|&(_, stored)| stored != 0.0);
+            found.map_or(0.0, |(layer, stored)| numbers[layer].get(&stored.to_bits()).map_or(0.0, |&n| n.into()))
         })?;
-        let names = self.segments.iter().enumerate().map(|(at, segment)| (number(at), segment.name.clone())).collect();
+        let number = |segment: &Segment| numbers[segment.layer].get(&(segment.label as f64).to_bits()).copied();
+        let names = self.segments.iter().filter(|segment| segment.layer < count);
+        let names = names.filter_map(|segment| Some((number(segment)?.into(), segment.name.clone()))).collect();
         Ok(Unfolded { samples: map, names, offers: Offers::default(), taken })
+    }
+
+    /// The number that each label of each layer has in one map: the label itself where no two layers have the same one and all are
+    /// whole numbers of 16 bits, else its place among them, first those of segments and then others.
+    fn numbers(&self, samples: &Samples, format: &'static str) -> Result<Vec<BTreeMap<u64, u16>>, ScanError> {
+        let too_many = || ScanError::malformed(format, ScanProblem::ManyLabels { most: u16::MAX.into() });
+        let mut numbers = vec![BTreeMap::new(); self.count];
+        let mut labels: Vec<(usize, f64)> = Vec::new();
+        let stored = (0..samples.len()).map(|at| (at % self.count, samples.stored(at)));
+        let of_segments = self.segments.iter().map(|segment| (segment.layer, segment.label as f64));
+        for (layer, label) in of_segments.filter(|&(layer, _)| layer < self.count).chain(stored) {
+            if label != 0.0 && !numbers[layer].contains_key(&label.to_bits()) {
+                labels.push((layer, label));
+                let number = u16::try_from(labels.len()).map_err(|_| too_many())?;
+                numbers[layer].insert(label.to_bits(), number);
+            }
+        }
+        let mut sorted: Vec<f64> = labels.iter().map(|&(_, label)| label).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let is_number = |label: f64| (1.0..=f64::from(u16::MAX)).contains(&label) && label.fract() == 0.0;
+        let is_clear = sorted.iter().all(|&label| is_number(label)) && sorted.windows(2).all(|two| two[0] != two[1]);
+        if is_clear {
+            for (layer, label) in labels {
+                numbers[layer].insert(label.to_bits(), label as u16);
+            }
+        }
+        Ok(numbers)
     }
 
     /// What a layer is told by: its number and its segments.

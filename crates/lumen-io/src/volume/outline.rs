@@ -44,9 +44,9 @@ pub(super) struct Offers {
 }
 
 impl Offers {
-    /// The first of those with most slices.
-    pub(super) fn largest(&self) -> usize {
-        let numbers = (0..self.list.len()).rev();
+    /// The first of those with most slices, among the numbers that may be taken.
+    pub(super) fn largest(&self, may_be: impl Fn(usize) -> bool) -> usize {
+        let numbers = (0..self.list.len()).rev().filter(|&number| may_be(number));
         numbers.max_by_key(|&number| self.list[number].slices).unwrap_or(0)
     }
 
@@ -89,7 +89,7 @@ pub(super) struct Outline {
 impl Outline {
     pub(super) fn finish(self, samples: Samples) -> Result<Scan, ScanError> {
         let [slope, intercept] = self.scaling;
-        let unfolded = self.layers.unfold(samples, self.geometry.size[2])?;
+        let unfolded = self.layers.unfold(samples, self.geometry.size[2], self.format)?;
         let grid = Grid::new(self.geometry, unfolded.samples, slope, intercept)?;
         let mut scan = Scan::new(grid, self.format, self.axes);
         (scan.is_ct, scan.warnings, scan.names) = (self.is_ct, self.warnings, unfolded.names);

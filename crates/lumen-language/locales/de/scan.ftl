@@ -161,8 +161,8 @@ scan-unreadable = { $path } ist nicht lesbar
 scan-silent = Die { $format }-Datei sagt nicht, wie der Patient liegt: Die Achsen sind unbekannt.
 scan-silent-format = { $format } sagt nicht, wie der Patient liegt: Die Achsen sind unbekannt.
 scan-unknown-unit = Die Längeneinheit der { $format }-Datei, { $unit }, ist nicht bekannt: Sie wird als mm genommen.
-scan-nifti-no-matrix = Die Matrix (sform) der NIfTI-Datei ist keine, obwohl sie gelten soll: Ihr Quaternion (qform) wird genommen.
-scan-nifti-no-place = Die Matrix (sform) der NIfTI-Datei ist keine, und ein Quaternion (qform) hat sie nicht: Ihre Abstände werden genommen.
+scan-nifti-no-matrix = Die Matrix (sform) der NIfTI-Datei ist nicht brauchbar: Ihre Richtungen spannen keinen Raum auf. Stattdessen wird das Quaternion (qform) verwendet.
+scan-nifti-no-place = Die Matrix (sform) der NIfTI-Datei ist nicht brauchbar: Ihre Richtungen spannen keinen Raum auf. Ein brauchbares Quaternion (qform) gibt es nicht, und stattdessen werden die Abstände verwendet.
 scan-nifti-spacings = Die NIfTI-Datei widerspricht sich: Nach ihrer Matrix (sform) sind Voxel { $matrix } mm voneinander entfernt, nach ihren Abständen { $stated } mm. Die Matrix wird genommen.
 
 ## Was an einer Datei falsch ist
@@ -174,6 +174,7 @@ scan-header-lacks = in ihrem Kopf fehlt „{ $key }“
 scan-header-none = ihr Kopf ist keiner
 scan-not-numbers = „{ $key }“ besteht nicht aus { $count } Zahlen
 scan-no-data-file = ihr Kopf sagt nicht, wo die Zahlen stehen ({ $key })
+scan-many-labels = ihre Ebenen enthalten mehr als { $most } Labels, die meisten, die eine Karte haben kann
 scan-axes = sie hat { $axes } Achsen
 scan-dicom-header = eine Datei endet in ihrem Kopf
 scan-dicom-damaged = die Elemente einer Datei sind beschädigt
@@ -216,10 +217,14 @@ scan-dicom-same-place = { $count ->
     [one] Eine Schicht ist zweimal da, am selben Ort und mit denselben Pixeln: Eine davon wird genommen.
    *[other] { $count } Schichten sind zweimal da, am selben Ort und mit denselben Pixeln: Je eine davon wird genommen.
 }
-scan-volumes = Die Dateien enthalten { $count } Volumen einer Serie, unterschieden nach: { $by }; jedes mit seiner Zahl von Schichten: { $list }. Geöffnet ist { $taken }.
+scan-volumes = Die Dateien enthalten { $count } Volumen einer Serie, unterschieden nach: { $by }; jedes mit seiner Zahl von Schichten: { $list }. Volumen { $taken } ist geöffnet.
 scan-dicom-series = { $others ->
-    [one] Die Dateien enthalten { $count } Serien: Die mit den meisten Schichten, { $taken }, wird genommen, und { $slices } der anderen werden weggelassen.
-   *[other] Die Dateien enthalten { $count } Serien: Die mit den meisten Schichten, { $taken }, wird genommen, und { $slices } von { $others } anderen werden weggelassen.
+    [one] Die Dateien enthalten { $count } Serien. Das Volumen mit den meisten Schichten ({ $taken }) ist geöffnet. Weggelassene Schichten der anderen Serie: { $slices }.
+   *[other] Die Dateien enthalten { $count } Serien. Das Volumen mit den meisten Schichten ({ $taken }) ist geöffnet. Weggelassene Schichten von { $others } anderen Serien: { $slices }.
+}
+scan-dicom-mixed-left-out = { $count ->
+    [one] Ein Volumen wird weggelassen: Mehrere seiner Schichten liegen am selben Ort, und nichts in den Dateien sagt, zu welchem Volumen jede gehört.
+   *[other] { $count } Volumen werden weggelassen: Mehrere ihrer Schichten liegen am selben Ort, und nichts in den Dateien sagt, zu welchem Volumen jede gehört.
 }
 scan-dicom-no-slices = { $count ->
     [one] Eine Datei enthält keine Schicht in Graustufen und wird weggelassen.

@@ -161,8 +161,8 @@ scan-unreadable = { $path } est illisible
 scan-silent = Le fichier { $format } ne dit pas comment le patient est orienté : les axes sont inconnus.
 scan-silent-format = { $format } ne dit pas comment le patient est orienté : les axes sont inconnus.
 scan-unknown-unit = L'unité de longueur du fichier { $format }, { $unit }, n'est pas connue : elle est prise pour des mm.
-scan-nifti-no-matrix = La matrice (sform) du fichier NIfTI n'en est pas une, bien qu'elle doive servir : son quaternion (qform) est pris.
-scan-nifti-no-place = La matrice (sform) du fichier NIfTI n'en est pas une, et il n'a pas de quaternion (qform) : ses espacements sont pris.
+scan-nifti-no-matrix = La matrice (sform) du fichier NIfTI est inutilisable : ses directions n'engendrent pas l'espace. Le quaternion (qform) est utilisé à la place.
+scan-nifti-no-place = La matrice (sform) du fichier NIfTI est inutilisable : ses directions n'engendrent pas l'espace. Il n'y a pas de quaternion (qform) utilisable, et les espacements sont utilisés à la place.
 scan-nifti-spacings = Le fichier NIfTI se contredit : selon sa matrice (sform) les voxels sont à { $matrix } mm, selon ses espacements à { $stated } mm. La matrice est prise.
 
 ## Ce qui ne va pas dans un fichier
@@ -174,6 +174,7 @@ scan-header-lacks = son en-tête n'a pas de « { $key } »
 scan-header-none = son en-tête n'en est pas un
 scan-not-numbers = « { $key } » n'est pas fait de { $count } nombres
 scan-no-data-file = son en-tête ne dit pas où sont les nombres ({ $key })
+scan-many-labels = ses couches contiennent plus de { $most } étiquettes, le maximum d'une carte
 scan-axes = il a { $axes } axes
 scan-dicom-header = un fichier se termine dans son en-tête
 scan-dicom-damaged = les éléments d'un fichier sont endommagés
@@ -216,10 +217,14 @@ scan-dicom-same-place = { $count ->
     [one] Une coupe est présente deux fois, à la même place et avec les mêmes pixels : une seule est prise.
    *[other] { $count } coupes sont présentes deux fois, à la même place et avec les mêmes pixels : une seule de chaque est prise.
 }
-scan-volumes = Les fichiers contiennent { $count } volumes d'une même série, distingués par : { $by } ; chacun avec son nombre de coupes : { $list }. Le volume ouvert est { $taken }.
+scan-volumes = Les fichiers contiennent { $count } volumes d'une même série, distingués par : { $by } ; chacun avec son nombre de coupes : { $list }. Le volume { $taken } est ouvert.
 scan-dicom-series = { $others ->
-    [one] Les fichiers contiennent { $count } séries : celle qui a le plus de coupes, { $taken }, est prise, et { $slices } de l'autre sont omises.
-   *[other] Les fichiers contiennent { $count } séries : celle qui a le plus de coupes, { $taken }, est prise, et { $slices } de { $others } autres sont omises.
+    [one] Les fichiers contiennent { $count } séries. Le volume qui a le plus de coupes ({ $taken }) est ouvert. Coupes omises de l'autre série : { $slices }.
+   *[other] Les fichiers contiennent { $count } séries. Le volume qui a le plus de coupes ({ $taken }) est ouvert. Coupes omises de { $others } autres séries : { $slices }.
+}
+scan-dicom-mixed-left-out = { $count ->
+    [one] { $count } volume est omis : plusieurs de ses coupes sont à la même place, et rien dans les fichiers ne dit à quel volume chacune appartient.
+   *[other] { $count } volumes sont omis : plusieurs de leurs coupes sont à la même place, et rien dans les fichiers ne dit à quel volume chacune appartient.
 }
 scan-dicom-no-slices = { $count ->
     [one] { $count } fichier ne contient pas de coupe en niveaux de gris et est omis.

@@ -68,6 +68,8 @@ pub(super) struct File<'a> {
     shared: Values<'a>,
     /// What it says of one frame each.
     each: Vec<Values<'a>>,
+    /// Whether it says of a frame alone where that is.
+    has_places: bool,
     /// What it says of each of its segments.
     segments: Vec<Values<'a>>,
     /// The pixels, or the fragments that they are packed into.
@@ -90,6 +92,7 @@ impl<'a> File<'a> {
         file.is_signed = whole(tags::SIGNED) == 1;
         (file.rows, file.columns, file.bits_allocated, file.bits_stored) =
             (rows.into(), columns.into(), allocated, stored);
+        file.has_places = file.each.iter().any(|values| find(values, tags::POSITION).is_some());
         file.frames = file.own(tags::FRAMES).and_then(Value::number).map_or(1, |frames| frames as usize).max(1);
         Ok(file)
     }
@@ -146,7 +149,7 @@ impl<'a> File<'a> {
             return Some(first);
         }
         // A file that says where some frames are and not where this one is.
-        if self.each.iter().any(|values| find(values, tags::POSITION).is_some()) {
+        if self.has_places {
             return None;
         }
         let between = self.number(0, tags::BETWEEN).or_else(|| self.number(0, tags::THICKNESS))?;
@@ -186,9 +189,13 @@ impl<'a> File<'a> {
 
     /// Number and name of each segment.
     pub(super) fn segments(&self) -> impl Iterator<Item = (u16, String)> {
-        self.segments.iter().filter_map(|values| {
+        // The first that it names; Latin-1 is the one beside UTF-8 that these names have in practice.
+        let letters = self.text(tags::LETTERS);
+        let is_latin_1 = matches!(letters.split('\\').next(), Some("ISO_IR 100" | "ISO 2022 IR 100"));
+        let name = move |value: Value| if is_latin_1 { latin_1(value.bytes) } else { text(value.bytes) };
+        self.segments.iter().filter_map(move |values| {
             let number = find(values, tags::SEGMENT_NUMBER)?.short();
-            Some((number, find(values, tags::SEGMENT_LABEL).map_or_else(String::new, Value::text)))
+            Some((number, find(values, tags::SEGMENT_LABEL).map_or_else(String::new, name)))
         })
     }
 
@@ -381,13 +388,23 @@ fn value(bytes: &[u8], position: u64, length: u32) -> Option<&[u8]> {
     bytes.get(start..start.checked_add(length as usize)?)
 }
 
-/// A value of letters, without its padding, and not more than a name is long.
+/// A value of letters, which are UTF-8.
 fn text(value: &[u8]) -> String {
+    String::from_utf8_lossy(unpadded(value)).into_owned()
+}
+
+/// A value of letters of ISO 8859-1, whose bytes are the numbers of its letters.
+fn latin_1(value: &[u8]) -> String {
+    unpadded(value).iter().copied().map(char::from).collect()
+}
+
+/// A value without its padding, and not more than a name is long.
+fn unpadded(value: &[u8]) -> &[u8] {
     const LONGEST: usize = 128;
     let is_padding = |byte: &u8| matches!(byte, 0 | b' ');
     let start = value.iter().position(|byte| !is_padding(byte)).unwrap_or(0);
     let end = value.iter().rposition(|byte| !is_padding(byte)).map_or(0, |last| last + 1);
-    String::from_utf8_lossy(&value[start..end.min(start + LONGEST).max(start)]).into_owned()
+    &value[start..end.min(start + LONGEST).max(start)]
 }
 
 fn number(word: &[u8]) -> Option<f64> {

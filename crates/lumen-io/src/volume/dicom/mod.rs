@@ -67,7 +67,9 @@ pub(super) fn read(parts: &[&Part], choice: Option<usize>) -> Result<Scan, ScanE
     let sizes: Vec<usize> = series.iter().map(Vec::len).collect();
     let volumes: Vec<(usize, Volume)> = series.into_iter().enumerate().flat_map(volumes_of).collect();
     let offers = offers(&volumes);
-    let taken = choice.unwrap_or_else(|| offers.largest());
+    let mixed = volumes.iter().filter(|(_, volume)| volume.mixed > 0).count();
+    let is_open = |number: usize| volumes[number].1.mixed == 0 || mixed == volumes.len();
+    let taken = choice.unwrap_or_else(|| offers.largest(is_open));
     let mut volumes = volumes;
     if taken >= volumes.len() {
         return Err(ScanError::NoSuchVolume { number: taken + 1, count: volumes.len() });
@@ -75,8 +77,11 @@ pub(super) fn read(parts: &[&Part], choice: Option<usize>) -> Result<Scan, ScanE
     let (number, volume) = volumes.swap_remove(taken);
     let mut warnings = Vec::new();
     if choice.is_none() {
-        warnings.extend(others(&sizes, number));
+        warnings.extend(others(&sizes, number, volume.places));
         warnings.extend(offers.warning(number, taken));
+        if mixed > 0 {
+            warnings.push(ScanWarning::MixedLeftOut { count: mixed }.into());
+        }
     }
     if empty > 0 {
         warnings.push(ScanWarning::NoSlices { count: empty }.into());
@@ -85,12 +90,14 @@ pub(super) fn read(parts: &[&Part], choice: Option<usize>) -> Result<Scan, ScanE
         warnings.push(ScanWarning::SamePlace { count: volume.twice }.into());
     }
     if volume.mixed > 0 {
-        return Err(ScanError::Mixed { places: volume.mixed });
+        // Pixels that cannot be read are never the same.
+        let unread = volume.shared().find_map(|slice| pixels::frame(slice.file, slice.frame).err());
+        return Err(unread.unwrap_or(ScanError::Mixed { places: volume.mixed }));
     }
     let mut scan = if segments::are(&volume.slices) {
-        segments::label_map(&volume)?
+        segments::label_map(&volume, &mut warnings)?
     } else {
-        scan(volume.slices, &mut unreadable, &mut warnings)?
+        scan(volume.slices.to_vec(), &mut unreadable, &mut warnings)?
     };
     warnings.extend(unreadable.warning());
     scan.warnings.splice(..0, warnings);
@@ -108,18 +115,19 @@ fn volumes_of<'f, 'a>((number, slices): (usize, Vec<Slice<'f, 'a>>)) -> Vec<(usi
 fn offers(volumes: &[(usize, Volume)]) -> Offers {
     let offer = |(series, volume): &(usize, Volume)| Offer {
         series: *series,
-        slices: volume.places(),
+        slices: volume.places,
         by: volume.by.as_ref().map(|(field, _)| *field),
         value: volume.by.as_ref().map_or_else(String::new, |(_, value)| value.clone()),
     };
     Offers { list: volumes.iter().map(offer).collect() }
 }
 
-/// What is told of the series beside number `taken`, of which there are so many slices each.
-fn others(sizes: &[usize], taken: usize) -> Option<Warning> {
+/// What is told of the series beside number `series`, of whose volumes one of `taken` slices is opened; `sizes` are the slices
+/// of each series.
+fn others(sizes: &[usize], series: usize, taken: usize) -> Option<Warning> {
     let others = sizes.len() - 1;
-    let slices = sizes.iter().sum::<usize>() - sizes[taken];
-    (others > 0).then(|| ScanWarning::Series { count: others + 1, taken: sizes[taken], slices, others }.into())
+    let slices = sizes.iter().sum::<usize>() - sizes[series];
+    (others > 0).then(|| ScanWarning::Series { count: others + 1, taken, slices, others }.into())
 }
 
 /// The volume of slices.
@@ -174,16 +182,20 @@ fn missing(what: DicomProblem) -> ScanError {
 
 /// The slices of all files, each with its place, those of a kind together: images first, then segments.
 fn series<'f, 'a>(files: &'f [File<'a>], unreadable: &mut Unreadable) -> Vec<Vec<Slice<'f, 'a>>> {
+    /// Series are looked back at: slices that each have a direction of their own are of as many.
+    const LOOKED_AT: usize = 256;
     let mut series: Vec<Vec<Slice>> = Vec::new();
     for file in files.iter().filter(|file| file.holds_slices()) {
         for frame in 0..file.held_frames() {
             match placed(file, frame) {
                 Err(what) => unreadable.add(missing(what)),
                 // Most belong to the one before.
-                Ok(slice) => match series.iter_mut().rev().find(|group| belong_together(&group[0], &slice)) {
-                    Some(group) => group.push(slice),
-                    None => series.push(vec![slice]),
-                },
+                Ok(slice) => {
+                    match series.iter_mut().rev().take(LOOKED_AT).find(|group| belong_together(&group[0], &slice)) {
+                        Some(group) => group.push(slice),
+                        None => series.push(vec![slice]),
+                    }
+                }
             }
         }
     }
@@ -223,24 +235,27 @@ fn step(slices: &[Slice], warnings: &mut Vec<Warning>) -> Result<DVec3, ScanErro
     };
     let steps = (slices.len() - 1) as f64;
     let distances: Vec<f64> = slices.windows(2).map(|two| two[1].height - two[0].height).collect();
+    warnings.extend(uneven(&distances));
+    Ok((last.position - first.position) / steps)
+}
+
+/// What is told of distances that differ: the one that differs most from the usual.
+fn uneven(distances: &[f64]) -> Option<Warning> {
     let usual = {
-        let mut sorted = distances.clone();
+        let mut sorted = distances.to_vec();
         sorted.sort_unstable_by(f64::total_cmp);
-        sorted[sorted.len() / 2]
+        *sorted.get(sorted.len() / 2)?
     };
     let off = |distance: f64| (distance - usual).abs();
-    let worst = (0..distances.len()).max_by(|&a, &b| off(distances[a]).total_cmp(&off(distances[b]))).unwrap_or(0);
-    let there = distances[worst];
-    if off(there) > usual * UNEVEN {
-        let (below, above) = (worst + 1, worst + 2);
-        let (is_wide, usual, there) = (there > usual, usual, there);
-        warnings.push(if is_wide {
+    let worst = (0..distances.len()).max_by(|&a, &b| off(distances[a]).total_cmp(&off(distances[b])))?;
+    let (there, below, above) = (distances[worst], worst + 1, worst + 2);
+    (off(there) > usual * UNEVEN).then(|| {
+        if there > usual {
             ScanWarning::Gap { usual, there, below, above }.into()
         } else {
             ScanWarning::Squeeze { usual, there, below, above }.into()
-        });
-    }
-    Ok((last.position - first.position) / steps)
+        }
+    })
 }
 
 /// The stored numbers of all slices, and what turns them into values. Where that differs from slice to slice, the values.

@@ -9,13 +9,17 @@ use jpeg_decoder::{Decoder, PixelFormat};
 
 use super::super::super::problem::DicomProblem;
 use super::super::error::ScanError;
-use super::super::numbers::MAX_UNFOLDED;
+use super::super::numbers::{LARGEST, MAX_UNFOLDED};
 use super::file::{FORMAT, File, Packing};
 
 /// The pixels of frame `frame` of a file, in little-endian order.
 pub(super) fn frame(file: &File, frame: usize) -> Result<Vec<u8>, ScanError> {
     let size = (file.bits_allocated as usize / 8).max(1);
-    let bytes = file.rows * file.columns * size;
+    let bytes = (file.rows as u64 * file.columns as u64).saturating_mul(size as u64);
+    if bytes > LARGEST {
+        return Err(ScanError::TooLarge { bytes, limit: LARGEST });
+    }
+    let bytes = bytes as usize;
     let short = || ScanError::malformed(FORMAT, DicomProblem::Pixels);
     if file.bits_allocated == 1 && matches!(file.packing, Some(Packing::Little | Packing::Big)) {
         return bits(file, frame, bytes).ok_or_else(short);
@@ -129,22 +133,58 @@ fn picture(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
     })
 }
 
+/// What a JPEG 2000 picture says first (ISO/IEC 15444-1, A.5.1): its size, its tiles and the numbers of its one component. It
+/// is looked at before the decoder is, which makes room for all components and tiles that are announced.
+struct Announced {
+    size: [u64; 2],
+    tiles: u64,
+    is_signed: bool,
+}
+
+impl Announced {
+    /// `None` where it is no bare codestream of one component.
+    fn parse(packed: &[u8]) -> Option<Self> {
+        const CODESTREAM: &[u8] = &[0xFF, 0x4F, 0xFF, 0x51];
+        const COMPONENTS: usize = 40;
+        const DEPTH: usize = 42;
+        let word = |at: usize| packed.get(at..)?.first_chunk().map(|&word| u64::from(u32::from_be_bytes(word)));
+        let pair = |at: usize| Some([word(at)?, word(at + 4)?]);
+        if !packed.starts_with(CODESTREAM) || packed.get(COMPONENTS..DEPTH)? != [0, 1] {
+            return None;
+        }
+        let [end, start, tile, first_tile] = [pair(8)?, pair(16)?, pair(24)?, pair(32)?];
+        let along = |axis: usize| end[axis].checked_sub(start[axis]);
+        let tiles = |axis: usize| {
+            (tile[axis] > 0)
+                .then(|| end[axis].checked_sub(first_tile[axis]))
+                .flatten()
+                .map(|all| all.div_ceil(tile[axis]))
+        };
+        let (size, is_signed) = ([along(0)?, along(1)?], packed.get(DEPTH)? & 0x80 != 0);
+        Some(Self { size, tiles: tiles(0)?.checked_mul(tiles(1)?)?, is_signed })
+    }
+}
+
 /// Decodes a JPEG 2000 picture of one channel. The decoder takes pixels for numbers from 0 on; whether they are signed the
-/// picture says behind its size (ISO/IEC 15444-1, A.5.1), whatever the file says.
+/// picture says, whatever the file says.
 fn wavelets(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
-    const CODESTREAM: &[u8] = &[0xFF, 0x4F, 0xFF, 0x51];
-    const DEPTH: usize = 42;
+    /// As many as the standard can number.
+    const MOST_TILES: u64 = 65_535;
     /// Its numbers are floats, which hold so many bits.
     const DEEPEST: u8 = 24;
     let damaged = || ScanError::malformed(FORMAT, DicomProblem::Jpeg);
-    let depth = *packed.get(DEPTH).filter(|_| packed.starts_with(CODESTREAM)).ok_or_else(damaged)?;
+    let other_size = || ScanError::malformed(FORMAT, DicomProblem::JpegSize);
+    let announced = Announced::parse(packed).filter(|announced| announced.tiles <= MOST_TILES).ok_or_else(damaged)?;
+    if announced.size != [file.columns as u64, file.rows as u64] {
+        return Err(other_size());
+    }
     let image = Image::new(packed, &DecodeSettings::default()).map_err(|_| damaged())?;
     let bits = image.original_bit_depth();
     if (image.width() as usize, image.height() as usize) != (file.columns, file.rows)
         || u16::from(bits) > file.bits_allocated
         || !matches!(file.bits_allocated, 8 | 16 | 32)
     {
-        return Err(ScanError::malformed(FORMAT, DicomProblem::JpegSize));
+        return Err(other_size());
     }
     let mut context = DecoderContext::default();
     let decoded = image.decode(&mut context).map_err(|_| damaged())?;
@@ -152,7 +192,7 @@ fn wavelets(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
     if channel.samples().len() != file.rows * file.columns || !(1..=DEEPEST).contains(&bits) {
         return Err(damaged());
     }
-    let lowest = if depth & 0x80 == 0 { 0 } else { 1 << (bits - 1) };
+    let lowest = if announced.is_signed { 1 << (bits - 1) } else { 0 };
     let last = (1i32 << bits) - 1;
     let numbers = channel.samples().iter().map(|&sample| (sample.round() as i32).clamp(0, last) - lowest);
     let size = usize::from(file.bits_allocated / 8);

@@ -2,6 +2,8 @@
 
 use dicom_core::Tag;
 
+/// Which letters texts are written in (the specific character set).
+pub(super) const LETTERS: Tag = Tag(0x0008, 0x0005);
 pub(super) const SOP_INSTANCE: Tag = Tag(0x0008, 0x0018);
 pub(super) const MODALITY: Tag = Tag(0x0008, 0x0060);
 pub(super) const THICKNESS: Tag = Tag(0x0018, 0x0050);
@@ -93,7 +95,7 @@ pub(super) const GROUPED: [(Tag, Tag); 19] = [
 ];
 
 /// What is looked at outside of any sequence.
-pub(super) const OWN: [Tag; 37] = [
+pub(super) const OWN: [Tag; 38] = [
     ACQUISITION,
     ACQUISITION_MOMENT,
     ACQUISITION_TIME,
@@ -110,6 +112,7 @@ pub(super) const OWN: [Tag; 37] = [
     INTERCEPT,
     KERNEL,
     LARGEST_FRACTION,
+    LETTERS,
     MODALITY,
     ORIENTATION,
     PHOTOMETRIC,

@@ -8,6 +8,7 @@
 //! are left out; what then still shares a place is not mixed, but refused.
 
 use std::cmp::Ordering;
+use std::rc::Rc;
 
 use dicom_core::Tag;
 
@@ -55,7 +56,10 @@ const DEEPEST: usize = 3;
 
 /// The slices of one volume, from below.
 pub(super) struct Volume<'f, 'a> {
-    pub(super) slices: Vec<Slice<'f, 'a>>,
+    /// Segments that overlap share the slices of all of them.
+    pub(super) slices: Rc<[Slice<'f, 'a>]>,
+    /// How many places they have.
+    pub(super) places: usize,
     /// What tells it from the others of its series, and what it has there.
     pub(super) by: Option<(VolumeField, String)>,
     /// The segment that it is of, where the slices are of several.
@@ -66,10 +70,15 @@ pub(super) struct Volume<'f, 'a> {
     pub(super) mixed: usize,
 }
 
-impl Volume<'_, '_> {
-    /// How many places its slices have.
-    pub(super) fn places(&self) -> usize {
-        places(&self.slices).count()
+impl<'f, 'a> Volume<'f, 'a> {
+    fn new(slices: Vec<Slice<'f, 'a>>, by: Option<(VolumeField, String)>, twice: usize, mixed: usize) -> Self {
+        let places = places(&slices).count();
+        Self { slices: slices.into(), places, by, segment: None, twice, mixed }
+    }
+
+    /// The slices that share a place with others.
+    pub(super) fn shared(&self) -> impl Iterator<Item = &Slice<'f, 'a>> {
+        places(&self.slices).filter(|place| place.len() > 1).flatten()
     }
 }
 
@@ -92,16 +101,15 @@ pub(super) fn split<'f, 'a>(mut slices: Vec<Slice<'f, 'a>>) -> Vec<Volume<'f, 'a
     }
     if let Some((field, parts)) = found {
         let twice = all - slices.len();
-        let volume = |(value, slices)| Volume { slices, by: Some((field, value)), segment: None, twice, mixed: 0 };
-        return parts.into_iter().map(volume).collect();
+        return parts.into_iter().map(|(value, part)| Volume::new(part, Some((field, value)), twice, 0)).collect();
     }
     slices.dedup_by(|next, kept| is_twin(next, kept));
     let (twice, mixed) = (all - slices.len(), places(&slices).filter(|place| place.len() > 1).count());
-    vec![Volume { slices, by: None, segment: None, twice, mixed }]
+    vec![Volume::new(slices, None, twice, mixed)]
 }
 
 /// Whether two slices share a place and all of their pixels.
-fn is_twin(a: &Slice, b: &Slice) -> bool {
+pub(super) fn is_twin(a: &Slice, b: &Slice) -> bool {
     (a.height - b.height).abs() < SAME && a.position.distance(b.position) < SAME && same_pixels(a, b)
 }
 
@@ -207,7 +215,7 @@ fn deepest_place(slices: &[Slice]) -> usize {
 }
 
 /// The slices of each place.
-fn places<'s, 'f, 'a>(slices: &'s [Slice<'f, 'a>]) -> impl Iterator<Item = &'s [Slice<'f, 'a>]> {
+pub(super) fn places<'s, 'f, 'a>(slices: &'s [Slice<'f, 'a>]) -> impl Iterator<Item = &'s [Slice<'f, 'a>]> {
     slices.chunk_by(|a, b| b.height - a.height < SAME)
 }
 
