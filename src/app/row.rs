@@ -164,9 +164,11 @@ pub(super) fn advanced(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui)) {
     head.header_response.on_hover_text(say!("panel-advanced-help"));
 }
 
-/// The paper's equations of a step, folded at first.
-pub(super) fn formulas(ui: &mut Ui, body: impl FnOnce(&mut Ui)) {
+/// The paper's equations of the step `title`, folded at first.
+pub(super) fn formulas(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui)) {
     let head = CollapsingHeader::new(say!("panel-equations")).id_salt("equations").show_unindented(ui, body);
+    // Two steps have some.
+    name(&head.header_response, Role::DisclosureTriangle, &say!("panel-equations-of", step = title));
     head.header_response.on_hover_text(say!("panel-equations-help"));
 }
 

@@ -44,7 +44,7 @@ fn reduction(ui: &mut Ui, state: &State, title: &str, settings: &mut Settings) {
         remark(ui, &format!("{}.", tell(&shortfall.message())));
     }
     error_plot::section(ui, state, &mut settings.target);
-    formulas(ui, |ui| equations::reduction(ui, settings));
+    formulas(ui, title, |ui| equations::reduction(ui, settings));
     advanced(ui, title, |ui| decimation(ui, state, settings));
 }
 

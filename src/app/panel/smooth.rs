@@ -59,7 +59,7 @@ fn preset_list(ui: &mut Ui, smoothing: &mut Smoothing) {
 fn smoothing(ui: &mut Ui, title: &str, settings: &mut Settings, state: &State, asked: &mut Vec<Action>) {
     preset_list(ui, &mut settings.smoothing);
     effect(ui, &settings.smoothing, state, asked);
-    formulas(ui, |ui| equations::smoothing(ui, settings));
+    formulas(ui, title, |ui| equations::smoothing(ui, settings));
     advanced(ui, title, |ui| filter(ui, settings));
 }
 

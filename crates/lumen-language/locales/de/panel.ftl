@@ -453,6 +453,7 @@ panel-sample-coronary = Koronararterien
 ## Die Gleichungen
 
 panel-equations = Gleichungen
+panel-equations-of = Gleichungen: { $step }
 panel-equations-help = Die Gleichungen des Artikels. Zeigen Sie auf ein farbiges Zeichen: Sein Regler und seine Marke in der Filterantwort leuchten auf, und umgekehrt.
 panel-equation-1 = Wie weit ein Eckpunkt vom Mittel seiner Nachbarn liegt; seine Gewichte w ergeben zusammen 1.
 panel-equation-2 = Dasselbe für alle Eckpunkte zugleich, mit K = I − W.

@@ -428,6 +428,7 @@ panel-work-comparing = Comparing
 ## The equations
 
 panel-equations = Equations
+panel-equations-of = Equations: { $step }
 panel-equations-help = The equations of the paper. Point at a symbol in colour: its slider and its mark in the response light up, and the other way round.
 panel-equation-1 = How far a vertex lies from the mean of its neighbours; its weights w add up to 1.
 panel-equation-2 = The same for all vertices at once, with K = I − W.

@@ -450,6 +450,7 @@ panel-sample-coronary = Artères coronaires
 ## Les équations
 
 panel-equations = Équations
+panel-equations-of = Équations : { $step }
 panel-equations-help = Les équations de l'article. Pointez un symbole en couleur : son curseur et son repère dans la réponse s'allument, et inversement.
 panel-equation-1 = À quelle distance un sommet se trouve de la moyenne de ses voisins ; la somme de ses poids w est 1.
 panel-equation-2 = La même chose pour tous les sommets à la fois, avec K = I − W.

@@ -235,7 +235,7 @@ fn a_symbol_of_an_equation_lights_its_slider_and_the_slider_lights_the_symbol() 
     let (mut harness, memory) = app([1280.0, 1600.0]);
     settle(&mut harness);
     memory.borrow_mut().runs = false;
-    let head = harness.query_all_by_role_and_label(Role::DisclosureTriangle, "Equations").next().unwrap();
+    let head = harness.query_all_by_role_and_label(Role::DisclosureTriangle, "Equations: Smooth").next().unwrap();
     head.click();
     harness.run_steps(12);
     let equation = harness.get_by_role_and_label(Role::Image, "(3) y' = f(K) y").rect();

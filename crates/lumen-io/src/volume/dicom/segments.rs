@@ -56,7 +56,11 @@ pub(super) fn split<'f, 'a>(mut slices: Vec<Slice<'f, 'a>>) -> Vec<Volume<'f, 'a
         return vec![volume(None, None)];
     }
     let names = segments.names.into_iter();
-    names.map(|(label, name)| volume(Some((VolumeField::Segment, name)), Some(label))).collect()
+    let of_segment = |(label, name): (u16, Option<String>)| {
+        let name = name.unwrap_or_else(|| label.to_string());
+        volume(Some((VolumeField::Segment, name)), Some(label))
+    };
+    names.map(of_segment).collect()
 }
 
 /// A segment: the file that it is in, by where that stands in memory, and its number there.
@@ -81,7 +85,8 @@ impl Identity {
 /// The labels of segments, and their names.
 struct Segments {
     labels: BTreeMap<Identity, u16>,
-    names: Vec<(u16, String)>,
+    /// As far as files name them.
+    names: Vec<(u16, Option<String>)>,
 }
 
 impl Segments {
@@ -93,10 +98,7 @@ impl Segments {
         let label = |(count, segment): (u16, Identity)| (segment, if is_clear { segment.number } else { count });
         let labels: BTreeMap<Identity, u16> = (1..=u16::MAX).zip(identities).map(label).collect();
         let said = names(slices);
-        let name = |(segment, &label): (&Identity, &u16)| {
-            (label, said.get(segment).cloned().unwrap_or_else(|| label.to_string()))
-        };
-        let names = labels.iter().map(name).collect();
+        let names = labels.iter().map(|(segment, &label)| (label, said.get(segment).cloned())).collect();
         Self { labels, names }
     }
 
@@ -174,7 +176,8 @@ pub(super) fn label_map(volume: &Volume, warnings: &mut Vec<Warning>) -> Result<
         target.zip(inside(slice)?).filter(|(_, inside)| *inside).for_each(|(label, _)| *label = segment);
     }
     let mut scan = Scan::new(Grid::new(geometry, Samples::U16(labels), 1.0, 0.0)?, FORMAT, Axes::Lps);
-    scan.names = segments.names.into_iter().map(|(label, name)| (label.into(), name)).collect();
+    let named = segments.names.into_iter().filter_map(|(label, name)| Some((label.into(), name?)));
+    scan.names = named.collect();
     Ok(scan)
 }
 
