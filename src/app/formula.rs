@@ -1,6 +1,7 @@
 //! Formulas as they are printed: indices, fractions and sums, drawn in the window's letters. No crate sets formulas in egui
 //! without a browser or a second font.
 
+use std::borrow::Cow;
 use std::fmt::{self, Display};
 use std::sync::Arc;
 
@@ -20,7 +21,7 @@ const BAR: f32 = 0.28;
 #[derive(Clone, Debug)]
 pub(super) enum Math {
     /// Upright letters: numbers, operators, names of functions.
-    Upright(&'static str),
+    Upright(Cow<'static, str>),
     /// The name of a variable.
     Variable(&'static str),
     /// One after another.
@@ -79,7 +80,8 @@ impl Math {
 impl Display for Math {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Upright(text) | Self::Variable(text) => f.write_str(text),
+            Self::Upright(text) => f.write_str(text),
+            Self::Variable(name) => f.write_str(name),
             Self::Row(parts) => parts.iter().try_for_each(|part| part.fmt(f)),
             Self::Index(both) => write!(f, "{}_{}", both[0], both[1]),
             Self::Fraction(both) => write!(f, "({})/({})", both[0], both[1]),

@@ -3,7 +3,7 @@
 //!
 //! Layers, the lowest first. A module uses only the layers below its own, so that no two know each other:
 //!
-//! 1. look and input: `theme`, `icon`, `row`, `control`, `assist`, `halo`, `keys`, `places`, `sides`;
+//! 1. look and input: `theme`, `icon`, `row`, `control`, `assist`, `halo`, `labels`, `tie`, `keys`, `places`, `sides`;
 //! 2. what is known: [`document`], [`history`], `options`, `platform`;
 //! 3. actions: the `action.rs` of each panel and the data that it names (`compare/comparison.rs`, `scan/slices.rs`,
 //!    `measure/{clip,subject,tool}.rs`), then `action`;
@@ -21,6 +21,9 @@
 //! - `mode`: the modes, one at a time, and the trait of modes and panels; `filling`: modes with views of their own.
 //! - `panel`, `numbers`, `bar`, `sheets`, `keys`, `shortcuts`: the controls; `row`, `control`, `swipe`, `response`,
 //!   `error_plot`, `icon` what they are made of, `assist` what assistive tools are told of them, `theme` the look.
+//! - `equations`: the paper's, set by `formula`; `tie`: what of them a slider and a mark of a plot stand for, too.
+//! - `plot_file`: a plot as a file, as SVG by `svg`; `still_plot`: what all plots share.
+//! - `labels`: who gives way where words over a view would collide.
 //! - `invitation`: over the sample, to open a file.
 //! - `drawer`: the panel of a phone; `tabs`: one large view there.
 //! - `sharing`: settings as a file and in a link; `recovery`: what comes back after a reload.

@@ -98,7 +98,7 @@ impl Drawn<'_> {
     pub(super) fn offer(&self, ui: &mut Ui) {
         let layer = ui.layer_id();
         let count = ui.ctx().graphics(|layers| layers.get(layer).map_or(0, |list| list.all_entries().len()));
-        let size = vec2(theme::row(ui.ctx(), 20.0), ui.spacing().interact_size.y.min(theme::row(ui.ctx(), 20.0)));
+        let size = Vec2::splat(theme::row(ui.ctx(), 20.0));
         let mut corner = ui.new_child(UiBuilder::new().max_rect(Rect::from_min_size(self.whole.max - size, size)));
         icon_menu(
             &mut corner,

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::document::Document;
 use super::history::History;
 use super::platform::{Platform, Storage, Store};
+use super::sides::{eye_of, look_from};
 use super::state::{State, Step};
 use super::trial::Trial;
 use crate::engine::{Link, Source};
@@ -74,20 +75,6 @@ impl Session {
     /// The text to keep. Nothing in it can fail: it has no maps, and every number is one.
     fn text(&self) -> String {
         serde_json::to_string(self).unwrap_or_default()
-    }
-}
-
-/// From where a camera looks.
-pub(super) fn eye_of(camera: &Camera) -> Eye {
-    let Camera { target, rotation, distance, .. } = camera;
-    Eye { target_mm: target.to_array(), rotation: rotation.to_array(), distance_mm: *distance }
-}
-
-/// Moves a camera there, unless that is nowhere.
-pub(super) fn look_from(eye: Eye, camera: &mut Camera) {
-    if eye.is_somewhere() {
-        let rotation = glam::Quat::from_array(eye.rotation).normalize();
-        *camera = Camera { target: eye.target_mm.into(), rotation, distance: eye.distance_mm, ..*camera };
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::document::Document;
 use super::platform::{Files, Sharing as PageSharing};
-use super::recovery::{eye_of, look_from};
+use super::sides::{eye_of, look_from};
 use super::state::State;
 use crate::engine::{Link as EngineLink, Source};
 use crate::io::Unit;

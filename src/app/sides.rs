@@ -1,4 +1,4 @@
-//! On which side of the patient the camera stands.
+//! Where the camera stands: on which side of the patient, or where a link or the last session has it.
 
 use std::f32::consts::PI;
 
@@ -7,6 +7,7 @@ use glam::{Quat, Vec3};
 use crate::io::Axes;
 use crate::language::Key;
 use crate::render::{Camera, StandardView};
+use crate::sharing::Eye;
 
 /// From where a surface of this size is first seen: from the front, unless it lies on its back, as some scans are stored.
 pub(super) fn first_view(size: Vec3) -> StandardView {
@@ -18,6 +19,20 @@ pub(super) fn stand(camera: &mut Camera, view: StandardView, axes: Axes) {
     camera.standard_view(view);
     if axes == Axes::Ras {
         camera.rotation = (Quat::from_rotation_z(PI) * camera.rotation).normalize();
+    }
+}
+
+/// From where a camera looks.
+pub(super) fn eye_of(camera: &Camera) -> Eye {
+    let Camera { target, rotation, distance, .. } = camera;
+    Eye { target_mm: target.to_array(), rotation: rotation.to_array(), distance_mm: *distance }
+}
+
+/// Moves a camera there, unless that is nowhere.
+pub(super) fn look_from(eye: Eye, camera: &mut Camera) {
+    if eye.is_somewhere() {
+        let rotation = Quat::from_array(eye.rotation).normalize();
+        *camera = Camera { target: eye.target_mm.into(), rotation, distance: eye.distance_mm, ..*camera };
     }
 }
 

@@ -1,10 +1,10 @@
 //! What of the method stands in several places at once: a slider, a symbol of a formula, a mark of a plot. Where the pointer
 //! is on one of them, all are lit.
 
-use egui::{Context, Id, Rect, Response, Stroke, StrokeKind, Ui, pos2};
+use egui::{Context, Id, Rect, Stroke, StrokeKind, Ui, pos2};
 
 /// What a symbol stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tie {
     /// Where the pass band ends.
     PassBand,
@@ -27,7 +27,6 @@ impl Tie {
             "pass-band" => Some(Self::PassBand),
             "iterations" => Some(Self::Iterations),
             "window" => Some(Self::Window),
-            "reduction" => Some(Self::Reduction),
             _ => None,
         }
     }
@@ -49,13 +48,6 @@ impl Tie {
         }
         let frame = ctx.cumulative_frame_nr();
         ctx.data_mut(|data| data.insert_temp(Self::id(), (self, frame)));
-    }
-
-    /// Lights it where the pointer is on `response`.
-    pub(super) fn follow(self, response: &Response) {
-        if response.hovered() {
-            self.light(&response.ctx);
-        }
     }
 
     /// Shows a control that stands for it.

@@ -125,7 +125,7 @@ impl Opened {
 
     fn labels(&self) -> impl Iterator<Item = NamedLabel<'_>> {
         self.survey.labels.iter().map(|&label| {
-            let named = self.names.iter().find(|(value, name)| *value == label.value && !name.is_empty());
+            let named = self.names.iter().find(|(value, _)| *value == label.value);
             NamedLabel { label, name: named.map(|(_, name)| name.as_str()) }
         })
     }

@@ -28,14 +28,17 @@ impl Eye {
             && self.target_mm.iter().all(|x| x.abs() <= FARTHEST_MM)
     }
 
-    /// With no more digits than can be seen: a ten-thousandth of the distance and of a turn.
+    /// With no more digits than can be seen: to a ten-thousandth of the distance and of a turn.
     pub fn rounded(self) -> Self {
-        let step = libm::powf(10.0, (libm::log10f(self.distance_mm) - 4.0).floor());
-        let round = |x: f32, step: f32| (f64::from((x / step).round()) * f64::from(step) * 1e6).round() as f32 / 1e6;
+        let round = |x: f32, places: f64| {
+            let scale = libm::pow(10.0, places);
+            ((f64::from(x) * scale).round() / scale) as f32
+        };
+        let places = 4.0 - libm::log10(self.distance_mm.into()).floor();
         Self {
-            target_mm: self.target_mm.map(|x| round(x, step)),
-            rotation: self.rotation.map(|x| round(x, 1e-4)),
-            distance_mm: round(self.distance_mm, step),
+            target_mm: self.target_mm.map(|x| round(x, places)),
+            rotation: self.rotation.map(|x| round(x, 4.0)),
+            distance_mm: round(self.distance_mm, places),
         }
     }
 }
@@ -58,5 +61,28 @@ impl FromStr for Eye {
             text.split(',').map(|number| number.parse().map_err(|_| ())).collect::<Result<_, _>>()?;
         let [x, y, z, a, b, c, d, distance_mm] = numbers[..] else { return Err(()) };
         Some(Self { target_mm: [x, y, z], rotation: [a, b, c, d], distance_mm }).filter(Self::is_somewhere).ok_or(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_link_has_no_more_digits_than_can_be_seen_whatever_the_size() {
+        for scale in [1e-3, 1.0, 1e3] {
+            let eye = Eye {
+                target_mm: [1.234_567, -0.012_345_6, 77.777_77].map(|x| x * scale),
+                rotation: [0.123_456, -0.5, 0.7, 0.494_949],
+                distance_mm: 345.678_9 * scale,
+            };
+            let rounded = eye.rounded();
+            assert!(rounded.to_string().len() < 80, "{rounded}");
+            let near = |a: f32, b: f32, within: f32| (a - b).abs() <= 0.6 * within;
+            let step = 1e-4 * eye.distance_mm;
+            assert!(near(eye.distance_mm, rounded.distance_mm, step) && rounded.distance_mm > 0.0);
+            assert!(eye.target_mm.iter().zip(rounded.target_mm).all(|(a, b)| near(*a, b, step)), "{rounded}");
+            assert!(eye.rotation.iter().zip(rounded.rotation).all(|(a, b)| near(*a, b, 1e-4)), "{rounded}");
+        }
     }
 }

@@ -15,13 +15,17 @@ use crate::{build, firmware, tools};
 const QUICK: ([&[&str]; 2], [&str; 2]) = (
     [
         // The unit tests of every crate.
-        &["--lib", "--bins"],
+        &["--workspace", "--lib", "--bins"],
         // A real window, and the app without one: it opens, is moved by its controls, says what it is.
-        &["--test=window", "--test=app", "--", "the window starts", "controls::", "labels::"],
+        &["--workspace", "--test=window", "--test=app", "--", "the window starts", "controls::", "labels::"],
     ],
     // From the file dialog to the saved file; files that are refused.
     ["open-reduce-save.test.mjs", "bad-file.test.mjs"],
 );
+
+/// What all other runs do: everything, and what a build without window and scans says of what it lacks.
+const ALL: [&[&str]; 2] =
+    [&["--workspace"], &["--package=lumen", "--no-default-features", "--test=program", "--", "without_scans::"]];
 
 /// How much of the tests is run.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -115,7 +119,7 @@ pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
 fn native(extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     tools::vulkan()?;
     let display = tools::display()?;
-    let runs: &[&[&str]] = if extent == Extent::Quick { &QUICK.0 } else { &[&[]] };
+    let runs: &[&[&str]] = if extent == Extent::Quick { &QUICK.0 } else { &ALL };
     estimate.begin("compile the native tests");
     let (mut counts, mut ended_well) = (Counts::default(), true);
     step("Run the native tests", || {
@@ -143,7 +147,7 @@ fn cargo_test(display: Option<&Path>, arguments: &[&str]) -> Result<Command> {
         }
         None => cargo,
     };
-    command.args(["test", "--workspace", "--no-fail-fast"]).args(arguments);
+    command.args(["test", "--no-fail-fast"]).args(arguments);
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
         // Where there is no desktop session, what looks for a display complains in every test that opens a window.
         let folder = target().join("run");

@@ -219,13 +219,7 @@ impl Series {
 
 /// The window at `t`, 0 to pi.
 fn weight(window: Window, t: f64) -> f64 {
-    let cos = |n: f64| libm::cos(n * t);
-    match window {
-        Window::Hamming => 0.54 + 0.46 * cos(1.0),
-        Window::Hanning => 0.5 + 0.5 * cos(1.0),
-        Window::Blackman => 0.42 + 0.5 * cos(1.0) + 0.08 * cos(2.0),
-        Window::Nuttall => 0.355768 + 0.487396 * cos(1.0) + 0.144232 * cos(2.0) + 0.012604 * cos(3.0),
-    }
+    (0u32..).zip(window.terms()).map(|(n, term)| term * libm::cos(f64::from(n) * t)).sum()
 }
 
 #[cfg(test)]

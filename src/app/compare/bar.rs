@@ -61,8 +61,7 @@ pub(super) fn bar(
         let flicker = ui.add_enabled(comparison.cells().len() > 1, flicker);
         is_held = flicker.on_hover_text(say!("compare-first-help")).is_pointer_button_down_on();
         differing = difference(ui, comparison);
-        let is_done = comparison.cells().iter().all(|cell| matches!(cell.outcome, Outcome::Done(_)));
-        let save = ui.add_enabled(is_done, egui::Button::new(say!("record-figure")));
+        let save = ui.add_enabled(comparison.made().is_some(), egui::Button::new(say!("record-figure")));
         is_saved = save.on_hover_text(say!("record-figure-help")).clicked();
         if ui.button(say!("compare-done")).on_hover_text(say!("compare-done-help")).clicked() {
             ask(OfComparison::Close);

@@ -81,13 +81,13 @@ impl Comparison {
         &self.cells
     }
 
-    /// What was made at each of the settings, once all of it is there.
-    pub fn made(&self) -> Option<Vec<Made>> {
+    /// What was made at each of the settings; `None` until all of it is there.
+    pub fn made(&self) -> Option<Vec<&Made>> {
         let made = self.cells.iter().map(|cell| match &cell.outcome {
-            Outcome::Done(made) => Some((**made).clone()),
+            Outcome::Done(made) => Some(&**made),
             Outcome::Waiting | Outcome::Failed(_) => None,
         });
-        made.collect::<Option<Vec<Made>>>().filter(|made| !made.is_empty())
+        made.collect::<Option<Vec<&Made>>>().filter(|made| !made.is_empty())
     }
 
     /// Whether the view is shown. Nothing is computed while it is not.

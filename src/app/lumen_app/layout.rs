@@ -23,21 +23,20 @@ impl LumenApp {
         let (mode, is_narrow, is_stacked) = (self.mode(), self.is_narrow, self.is_stacked);
         let (entries, keeps_surface) = (self.entries(mode), self.recovery.keeps(&mut *self.platform));
         let is_embedded = self.platform.is_embedded();
-        let mut top = |ui: &mut Ui| {
-            let shown = bar::Shown {
-                mode,
-                entries: &entries,
-                is_presenting: self.presenter.is_on(),
-                keeps_surface,
-                has_links: self.has_links,
-                language: self.speech.chosen(),
-                record: self.record.chosen(),
-            };
-            bar::top(ui, &self.state, &self.views, shown, &mut asked);
-        };
         // A part of another page opens and saves nothing.
         if !is_embedded {
-            Panel::top("top").frame(bar).exact_size(theme::row(ui.ctx(), 36.0) + 12.0).show(ui, &mut top);
+            Panel::top("top").frame(bar).exact_size(theme::row(ui.ctx(), 36.0) + 12.0).show(ui, |ui| {
+                let shown = bar::Shown {
+                    mode,
+                    entries: &entries,
+                    is_presenting: self.presenter.is_on(),
+                    keeps_surface,
+                    has_links: self.has_links,
+                    language: self.speech.chosen(),
+                    record: self.record.chosen(),
+                };
+                bar::top(ui, &self.state, &self.views, shown, &mut asked);
+            });
         }
         let inside = ui.available_width() - bar.inner_margin.sum().x;
         let notice = bar::notice(ui, &self.state, &self.views, is_narrow, inside);

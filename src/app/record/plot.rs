@@ -44,7 +44,8 @@ impl PlotJob {
     /// One sentence where it cannot be drawn.
     pub(super) fn figure(window: &egui_wgpu::RenderState, state: &State) -> Result<Self, String> {
         let document = state.document.as_ref().ok_or_else(|| say!("record-nothing"))?;
-        let cells: Vec<Made> = state.comparison.made().ok_or_else(|| say!("record-nothing"))?;
+        let made = state.comparison.made().ok_or_else(|| say!("record-nothing"))?;
+        let cells: Vec<Made> = made.into_iter().cloned().collect();
         // No name, which may be a patient's.
         let (title, axes) = (say!("record-figure-title"), document.import.axes);
         let figure = Figure { title: &title, name: "", axes, cells: &cells, arrangement: state.comparison.arrangement };

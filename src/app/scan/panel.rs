@@ -118,7 +118,7 @@ fn volumes(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
 fn labels(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     let text = |selection| match selection {
         Selection::Label(label) => {
-            let named = scan.opened.names.iter().find(|(known, name)| *known == label && !name.is_empty());
+            let named = scan.opened.names.iter().find(|(known, _)| *known == label);
             match named {
                 Some((_, name)) => say!("scan-label-named", label = label.to_string(), name = name),
                 None => say!("scan-label", label = label.to_string()),

@@ -17,7 +17,7 @@ use super::axes::{list, silent};
 use super::error::ScanError;
 use super::lines::lines;
 use super::numbers::{Layout, Packing};
-use super::outline::{Layers, Outline};
+use super::outline::Outline;
 use super::parts::Head;
 use super::parts::named;
 use lumen_volume::{Geometry, VolumeError};
@@ -166,20 +166,6 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
         Some(skipped) => skipped.parse().unwrap_or(0),
         None => 0,
     };
-    let (is_ct, scaling) = (header.is("Modality", "MET_MOD_CT"), [1.0, 0.0]);
-    let (axes, layers) = (known, Layers::default());
-    Ok(Outline {
-        format: FORMAT,
-        geometry,
-        layout,
-        packing,
-        file,
-        start,
-        skipped,
-        scaling,
-        axes,
-        is_ct,
-        warnings,
-        layers,
-    })
+    let (axes, is_ct) = (known, header.is("Modality", "MET_MOD_CT"));
+    Ok(Outline { packing, file, start, skipped, axes, is_ct, warnings, ..Outline::new(FORMAT, geometry, layout) })
 }

@@ -72,10 +72,10 @@ pub fn read_volume(parts: &[Part], choice: Option<usize>) -> Result<Scan, ScanEr
             outline.layers.choice = choice;
             stream::read_whole(*outline, parts)
         }
-        Way::Vti if choice.is_some_and(|number| number > 0) => {
-            Err(ScanError::NoSuchVolume { number: choice.unwrap_or(0) + 1, count: 1 })
-        }
-        Way::Vti => vti::read(parts[at].bytes),
+        Way::Vti => match choice {
+            Some(number @ 1..) => Err(ScanError::NoSuchVolume { number: number + 1, count: 1 }),
+            _ => vti::read(parts[at].bytes),
+        },
         Way::Dicom => {
             let is_slice = |part: &&Part| headers::content(part.bytes) == Some(content);
             dicom::read(&parts.iter().filter(is_slice).collect::<Vec<_>>(), choice)

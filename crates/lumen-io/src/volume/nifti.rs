@@ -21,7 +21,7 @@ use super::super::warnings::{ScanWarning, Warning};
 use super::axes::{ras_to_lps, silent};
 use super::error::ScanError;
 use super::numbers::{Layout, Packing, first_unfolded, is_gzip};
-use super::outline::{Layers, Outline};
+use super::outline::Outline;
 use super::parts::{Head, base_name, named};
 use lumen_volume::{Geometry, VolumeError};
 
@@ -323,21 +323,8 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
     } else {
         [places.slope, places.intercept].map(|place| header.float(place, 0))
     };
-    let (start, skipped) = (0, header.offset());
-    Ok(Outline {
-        format,
-        geometry,
-        layout,
-        packing,
-        file,
-        start,
-        skipped,
-        scaling,
-        axes,
-        is_ct: false,
-        warnings,
-        layers: Layers::default(),
-    })
+    let skipped = header.offset();
+    Ok(Outline { packing, file, skipped, scaling, axes, warnings, ..Outline::new(format, geometry, layout) })
 }
 
 /// A spacing that was left out is 1.

@@ -267,20 +267,6 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
         -1 => (files[file].length - start).saturating_sub(layout.bytes()),
         skipped => u64::try_from(skipped).unwrap_or(0),
     };
-    let (is_ct, scaling) = (false, [1.0, 0.0]);
     let layers = Layers { count: grid.layers, segments: header.segments(), choice: None };
-    Ok(Outline {
-        format: FORMAT,
-        geometry,
-        layout,
-        packing,
-        file,
-        start,
-        skipped,
-        scaling,
-        axes,
-        is_ct,
-        warnings,
-        layers,
-    })
+    Ok(Outline { packing, file, start, skipped, axes, warnings, layers, ..Outline::new(FORMAT, geometry, layout) })
 }

@@ -87,6 +87,24 @@ pub(super) struct Outline {
 }
 
 impl Outline {
+    /// A header that says no more than this: its numbers stand in the first file from its beginning on, as they are.
+    pub(super) fn new(format: &'static str, geometry: Geometry, layout: Layout) -> Self {
+        Self {
+            format,
+            geometry,
+            layout,
+            packing: Packing::Plain,
+            file: 0,
+            start: 0,
+            skipped: 0,
+            scaling: [1.0, 0.0],
+            axes: Axes::Unknown,
+            is_ct: false,
+            warnings: Vec::new(),
+            layers: Layers::default(),
+        }
+    }
+
     pub(super) fn finish(self, samples: Samples) -> Result<Scan, ScanError> {
         let [slope, intercept] = self.scaling;
         let unfolded = self.layers.unfold(samples, self.geometry.size[2], self.format)?;

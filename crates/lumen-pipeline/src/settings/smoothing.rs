@@ -130,6 +130,16 @@ impl Window {
     /// Their names.
     const NAMES: [&'static str; 4] = ["Hamming", "Hanning", "Blackman", "Nuttall"];
 
+    /// What the cosines of 0, t, 2t and so on are multiplied by; their sum is the window at t, 0 to pi.
+    pub fn terms(self) -> &'static [f64] {
+        match self {
+            Self::Hamming => &[0.54, 0.46],
+            Self::Hanning => &[0.5, 0.5],
+            Self::Blackman => &[0.42, 0.5, 0.08],
+            Self::Nuttall => &[0.355768, 0.487396, 0.144232, 0.012604],
+        }
+    }
+
     /// The window's name.
     pub fn name(self) -> &'static str {
         Self::NAMES[self as usize]

@@ -187,15 +187,15 @@ impl<'a> File<'a> {
         self.own(tags::SEGMENTATION_TYPE).is_some()
     }
 
-    /// Number and name of each segment.
+    /// Number and name of each segment that has one.
     pub(super) fn segments(&self) -> impl Iterator<Item = (u16, String)> {
         // The first that it names; Latin-1 is the one beside UTF-8 that these names have in practice.
         let letters = self.text(tags::LETTERS);
         let is_latin_1 = matches!(letters.split('\\').next(), Some("ISO_IR 100" | "ISO 2022 IR 100"));
         let name = move |value: Value| if is_latin_1 { latin_1(value.bytes) } else { text(value.bytes) };
         self.segments.iter().filter_map(move |values| {
-            let number = find(values, tags::SEGMENT_NUMBER)?.short();
-            Some((number, find(values, tags::SEGMENT_LABEL).map_or_else(String::new, name)))
+            let (number, label) = (find(values, tags::SEGMENT_NUMBER)?, find(values, tags::SEGMENT_LABEL)?);
+            Some((number.short(), name(label))).filter(|(_, name)| !name.is_empty())
         })
     }
 

@@ -107,11 +107,15 @@ impl Segments {
     }
 }
 
+/// The files of slices, each once, by where they stand in memory.
+fn files<'f, 'a>(slices: &[Slice<'f, 'a>]) -> BTreeMap<usize, &'f File<'a>> {
+    slices.iter().map(|slice| (Identity::of(slice).file, slice.file)).collect()
+}
+
 /// The names that the files of slices have for their segments.
 fn names(slices: &[Slice]) -> BTreeMap<Identity, String> {
-    let files: BTreeMap<usize, &File> = slices.iter().map(|slice| (Identity::of(slice).file, slice.file)).collect();
     let of_file = |file| File::segments(file).map(move |(number, name)| (Identity::new(file, number), name));
-    files.into_values().flat_map(of_file).collect()
+    files(slices).into_values().flat_map(of_file).collect()
 }
 
 /// Whether a pixel is of two segments, of frames in order of height.
@@ -154,11 +158,8 @@ pub(super) fn label_map(volume: &Volume, warnings: &mut Vec<Warning>) -> Result<
     let step = (top.position - first.position) / last as f64;
     let geometry = geometry(first, last + 1, step)?;
     let layout = Layout::new(FORMAT, geometry.size, Scalar::U16, false)?;
-    let bytes = slices
-        .iter()
-        .map(|slice| slice.file)
-        .map(|file| file.pixels.iter().map(|pixels| pixels.len() as u64).sum::<u64>());
-    let bytes = bytes.max().unwrap_or(0);
+    let bytes = |file: &File| file.pixels.iter().map(|pixels| pixels.len() as u64).sum();
+    let bytes: u64 = files(slices).into_values().map(bytes).max().unwrap_or(0);
     if layout.bytes() > MAX_UNFOLDED.saturating_mul(bytes) {
         return Err(ScanError::malformed(FORMAT, ScanProblem::Packed { needed: layout.bytes(), bytes }));
     }
