@@ -286,7 +286,8 @@ fn show(ui: &mut Ui, scene: &mut CompareScene, figure: &Figure<'_>, plan: &Plan)
         let (shared, titles) = words::titles(&all);
         part(ui, page.split_top_bottom_at_y(page.top() + HEAD).0, |ui| {
             ui.label(RichText::new(figure.title).size(20.0).strong());
-            ui.label(RichText::new(format!("{}  ·  {shared}", figure.name)).weak());
+            let below = [figure.name, &shared].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>();
+            ui.label(RichText::new(below.join("  ·  ")).weak());
         });
         part(ui, page.split_top_bottom_at_y(page.bottom() - FOOT + GAP).1, |ui| {
             ui.label(RichText::new(say!("compare-figure-legend", samples = REPORT_SAMPLES)).small().weak());

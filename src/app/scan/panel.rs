@@ -102,17 +102,18 @@ fn volumes(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
         };
         say!("scan-volume-offer", what = what, slices = *slices)
     };
-    row(ui, &say!("scan-volume"), &say!("scan-volume-help"), |ui| {
-        let chosen = opened.offers.get(opened.taken).map_or_else(String::new, text);
-        let list = ComboBox::from_id_salt("volume").selected_text(chosen).show_ui(ui, |ui| {
-            for (number, offer) in opened.offers.iter().enumerate() {
-                if ui.selectable_label(number == opened.taken, text(offer)).clicked() && number != opened.taken {
-                    asked.push(Action::Volume(number));
-                }
+    // What tells volumes apart may be long: the list has a row of its own.
+    ui.label(say!("scan-volume")).on_hover_text(say!("scan-volume-help"));
+    let chosen = opened.offers.get(opened.taken).map_or_else(String::new, text);
+    let list = ComboBox::from_id_salt("volume").width(ui.available_width()).truncate().selected_text(chosen);
+    let list = list.show_ui(ui, |ui| {
+        for (number, offer) in opened.offers.iter().enumerate() {
+            if ui.selectable_label(number == opened.taken, text(offer)).clicked() && number != opened.taken {
+                asked.push(Action::Volume(number));
             }
-        });
-        name(&list.response, Role::ComboBox, &say!("scan-volume"));
+        }
     });
+    name(&list.response, Role::ComboBox, &say!("scan-volume"));
 }
 
 fn labels(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {

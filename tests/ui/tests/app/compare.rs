@@ -422,7 +422,7 @@ fn what_is_compared_is_saved_as_one_picture() {
     settle(&mut harness);
     press(&mut harness, "Compare");
     settle(&mut harness);
-    press(&mut harness, "Save picture...");
+    press(&mut harness, "Picture...");
     let (name, bytes) = offered(&mut harness, &memory);
     assert_eq!(name, "abdominal-aorta-compared.png");
     let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
