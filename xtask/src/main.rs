@@ -1,5 +1,5 @@
 //! Developer commands: `cargo xtask serve | build | test | lint | peers | curve | bench-trial | fuzz-trial |
-//! fuzz-surfaces | fuzz-files | read-back | validation | firmware | package`.
+//! fuzz-surfaces | fuzz-files | instructions | read-back | validation | firmware | package`.
 //!
 //! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
 //! does nothing twice.
@@ -16,6 +16,7 @@ mod fuzz;
 mod glue;
 #[cfg(test)]
 mod house;
+mod instructions;
 mod lint;
 mod package;
 mod page;
@@ -95,6 +96,12 @@ enum Command {
         #[arg(long, default_value_t = 10)]
         minutes: u64,
     },
+    /// Count the instructions of each stage on the samples; fails where one takes 5 % more than is kept.
+    Instructions {
+        /// Keep what is counted.
+        #[arg(long)]
+        keep: bool,
+    },
     /// Read what Lumen writes with VTK, trimesh and meshio.
     ReadBack,
     /// Test the open feeder's firmware and build it for its board where that target is there.
@@ -126,6 +133,7 @@ fn main() -> ExitCode {
         Command::BenchTrial => bench_trial::bench_trial(),
         Command::FuzzTrial { steps } => fuzz::trial(steps),
         Command::FuzzSurfaces { count, seed } => fuzz::surfaces(count, seed),
+        Command::Instructions { keep } => instructions::count(keep),
         Command::FuzzFiles { only, minutes } => fuzz::files(&only, minutes),
         Command::ReadBack => read_back::read_back(),
         Command::Firmware => firmware::firmware(),
