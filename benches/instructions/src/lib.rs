@@ -6,8 +6,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use lumen_io::format::Format;
-use lumen_io::{ImportOptions, read, write};
+use lumen_io::{Format, ImportOptions, read, write};
 use lumen_mesh::TriMesh;
 use lumen_mesh::task::Budget;
 use lumen_pipeline::run::{Advance, Pipeline};
@@ -18,8 +17,8 @@ use lumen_trial::setup::Setup;
 use lumen_vessel::phantom::{Sample, generate};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Triangles of the samples.
-const TRIANGLES: usize = 20_000;
+/// Triangles of the samples: as few as have all of their vessels.
+const TRIANGLES: usize = 10_000;
 /// Steps of the trial that are counted.
 const STEPS: usize = 100;
 
@@ -68,7 +67,9 @@ pub fn advance() -> usize {
             ("Reading".to_owned(), Work::Nothing)
         }
         Work::Stages(mut pipeline) => match pipeline.advance(Budget::UNLIMITED).expect("settings in range") {
-            Advance::Finished(stage) => (format!("{stage:?}"), Work::Stages(pipeline)),
+            Advance::Finished(stage) => {
+                (format!("{stage:?} {:?}", pipeline.settings().decimation.method), Work::Stages(pipeline))
+            }
             _ => (String::new(), Work::Nothing),
         },
         Work::Course(mesh) => {
