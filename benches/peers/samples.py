@@ -86,7 +86,7 @@ def of_pynrrd(path):
     space = str(header.get("space", "")).lower()
     turn = {"right": [-1, -1, 1], "ras": [-1, -1, 1], "left-anterior": [1, -1, 1], "las": [1, -1, 1]}
     sign = next((np.diag(signs + [1.0]) for words, signs in turn.items() if space.startswith(words)), np.eye(4))
-    return values.reshape([size for size in values.shape if size > 1 or values.ndim <= 3]), sign @ matrix
+    return (values.reshape(values.shape[:3]) if set(values.shape[3:]) == {1} else values), sign @ matrix
 
 
 def of_vtk(image):
@@ -144,7 +144,7 @@ def contour(values, matrix, level):
     if not points.GetNumberOfPolys():
         return 0, None
     placed = vtk_to_numpy(points.GetPoints().GetData()) @ matrix[:3, :3].T + matrix[:3, 3]
-    return points.GetNumberOfPolys(), [placed.min(0), placed.max(0)]
+    return points.GetNumberOfPolys(), [np.nanmin(placed, 0), np.nanmax(placed, 0)]
 
 
 def volume_differs(values, matrix, files, folder, loss=0.0):
