@@ -296,12 +296,16 @@ fn structured_points_are_read_on_points_and_on_cells() {
 /// All numbers are there before the damage: they count whether the file comes whole or in pieces.
 #[test]
 fn damage_behind_the_numbers_is_none_of_theirs() {
-    let (numbers, length) = (little(), little().len() as u16);
     let header = [0x1F, 0x8B, 8, 0, 0, 0, 0, 0, 0, 3];
     // A block of the numbers as they are, and one of a kind that there is not.
-    let packed = [&header[..], &[0], &length.to_le_bytes(), &(!length).to_le_bytes(), &numbers, &[7; 9]].concat();
-    let bytes = [nrrd("gzip", "\n").into_bytes(), packed].concat();
+    let packed = |whole: &[u8]| {
+        let length = whole.len() as u16;
+        [&header[..], &[0], &length.to_le_bytes(), &(!length).to_le_bytes(), whole, &[7; 9]].concat()
+    };
+    let bytes = [nrrd("gzip", "\n").into_bytes(), packed(&little())].concat();
     assert_is_it(&open(&[("a.nrrd", bytes)]).unwrap(), "damage behind the numbers");
+    let nifti = [Nifti::first(false, true, b"n+1\0", 352.0), little()].concat();
+    assert_is_it(&open(&[("a.nii.gz", packed(&nifti))]).unwrap(), "damage behind the numbers of NIfTI");
 }
 
 /// Labels of two layers, one number of each after another.
