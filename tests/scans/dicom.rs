@@ -3,6 +3,10 @@
 mod segments;
 mod volumes;
 
+use std::io::Read as _;
+
+use flate2::Compression;
+use flate2::read::DeflateEncoder;
 use lumen::io::volume::{Part, Scan, ScanError, read_volume};
 use lumen::io::{VolumeField, in_english};
 
@@ -13,6 +17,7 @@ use crate::{Files, open};
 const IMPLICIT: &str = "1.2.840.10008.1.2";
 const EXPLICIT: &str = "1.2.840.10008.1.2.1";
 const BIG: &str = "1.2.840.10008.1.2.2";
+const DEFLATED: &str = "1.2.840.10008.1.2.1.99";
 const RLE: &str = "1.2.840.10008.1.2.5";
 const BASELINE: &str = "1.2.840.10008.1.2.4.50";
 const JPEG_2000: &str = "1.2.840.10008.1.2.4.90";
@@ -216,6 +221,41 @@ pub(crate) fn all() -> Vec<(&'static str, Files)> {
     let mut files = series(EXPLICIT);
     files.iter_mut().for_each(|(_, bytes)| bytes[152..172].copy_from_slice(&named.as_bytes()[..20]));
     all.push(("with the name of another way to write elements", files));
+    let own = |syntax| File { syntax, elements: Vec::new(), fragments: None }.bytes();
+    let behind = |own: Vec<u8>, data: Vec<u8>| [own, data].concat();
+    all.push((
+        "deflated",
+        (0..4)
+            .map(|k| {
+                let data = File::slice(EXPLICIT, k).bytes().split_off(own(EXPLICIT).len());
+                let mut packed = Vec::new();
+                DeflateEncoder::new(&*data, Compression::best()).read_to_end(&mut packed).unwrap();
+                (NAMES[k], behind(own(DEFLATED), packed))
+            })
+            .collect(),
+    ));
+    // A sequence of a kind that its writer did not know and without a length: implicit elements in one of its items, and a
+    // sequence in the other.
+    let (open_item, end_item) =
+        ([0xFE, 0xFF, 0x00, 0xE0, 0xFF, 0xFF, 0xFF, 0xFF], [0xFE, 0xFF, 0x0D, 0xE0, 0, 0, 0, 0]);
+    let end = [0xFE, 0xFF, 0xDD, 0xE0, 0, 0, 0, 0];
+    let inner = element(0x0020, 0x0037, "DS", &text("1\\0\\0\\0\\1\\0"), IMPLICIT);
+    let nested = [&[0x29, 0, 0x20, 0x10, 0xFF, 0xFF, 0xFF, 0xFF][..], &open_item, &inner, &end_item, &end].concat();
+    let unknown = [
+        &[0x29, 0, 0x10, 0x10, b'U', b'N', 0, 0, 0xFF, 0xFF, 0xFF, 0xFF][..],
+        &item(&inner),
+        &open_item,
+        &nested,
+        &end_item,
+        &end,
+    ]
+    .concat();
+    let mut files = series(EXPLICIT);
+    for (_, bytes) in &mut files {
+        let at = bytes.windows(4).position(|tag| tag == [0x40, 0, 0x75, 0x02]).unwrap();
+        bytes.splice(at..at, unknown.iter().copied());
+    }
+    all.push(("a sequence of an unknown kind", files));
     all
 }
 
@@ -333,6 +373,27 @@ fn frames_of_one_file_are_slices() {
     file.elements.insert(9, (0x0028, 0x0008, "IS", text("4")));
     let scan = open(&[("a", file.bytes())]).unwrap();
     assert_is_it(&scan, "four frames");
+}
+
+/// As many fragments to a frame as a writer likes: the table of offsets says where frames begin, or each begins a picture.
+#[test]
+fn frames_of_several_fragments_are_put_together() {
+    for is_told in [true, false] {
+        let mut file = File::slice(LOSSLESS, 0).with(0x0018, 0x0050, text("2"));
+        file.elements.insert(9, (0x0028, 0x0008, "IS", text("4")));
+        let (mut offsets, mut fragments, mut at) = (Vec::new(), Vec::new(), 0u32);
+        for k in 0..4 {
+            offsets.extend(at.to_le_bytes());
+            // Two fragments, but for the last frame.
+            let parts = File::slice(LOSSLESS, k).fragments.unwrap().split_off(1);
+            let parts = if k == 3 { vec![parts.concat()] } else { parts };
+            at += parts.iter().map(|part| 8 + part.len() as u32).sum::<u32>();
+            fragments.extend(parts);
+        }
+        fragments.insert(0, if is_told { offsets } else { Vec::new() });
+        file.fragments = Some(fragments);
+        assert_is_it(&open(&[("a", file.bytes())]).unwrap(), "frames of several fragments");
+    }
 }
 
 #[test]
@@ -529,11 +590,11 @@ fn what_no_volume_can_be_made_of_is_refused() {
     };
     assert_eq!(
         refused(|file| file.with(0x0020, 0x0037, Vec::new())),
-        "The DICOM file is broken: it does not say which way its slices lie."
+        "The DICOM file cannot be opened as a scan: it does not say which way its slices lie."
     );
     assert_eq!(
         refused(|file| file.with(0x0020, 0x0032, Vec::new())),
-        "The DICOM file is broken: it does not say where its slices are."
+        "The DICOM file cannot be opened as a scan: it does not say where its slices are."
     );
     assert_eq!(
         refused(|file| file.with(0x7FE0, 0x0010, vec![0; 58])),
@@ -547,8 +608,34 @@ fn what_no_volume_can_be_made_of_is_refused() {
         refused(|file| File { syntax: "1.2.840.10008.1.2.4.201", ..file }),
         "The DICOM file uses JPEG 2000 compression, which Lumen does not read."
     );
+    assert_eq!(
+        refused(|file| file.with(0x0028, 0x0002, short(3)).with(0x0028, 0x0004, text("RGB"))),
+        "The DICOM file cannot be opened as a scan: its pictures are in colours, and a surface takes shades of grey."
+    );
+    let table = item(&element(0x0028, 0x3002, "US", &[0, 16, 0, 0, 16, 0], EXPLICIT));
+    let tabled: Files = (0..3)
+        .map(|k| (NAMES[k], File::slice(EXPLICIT, k).also(0x0028, 0x3000, "SQ", table.clone()).bytes()))
+        .collect();
+    assert_eq!(
+        open(&tabled).unwrap_err().to_string(),
+        "The DICOM file uses a table of values (modality LUT), which Lumen does not read."
+    );
+    let twelve = |file: File| File {
+        syntax: BASELINE,
+        fragments: Some(vec![Vec::new(), {
+            let mut picture = padded(flat(200, 6, 5));
+            let at = picture.windows(2).position(|two| two == [0xFF, 0xC0]).unwrap();
+            (picture[at + 1], picture[at + 4]) = (0xC1, 12);
+            picture
+        }]),
+        ..file
+    };
+    assert_eq!(refused(twelve), "The DICOM file uses JPEG pictures of 12 bits, which Lumen does not read.");
     let one = open(&series(EXPLICIT)[..1]).unwrap_err().to_string();
-    assert_eq!(one, "The DICOM file is broken: it holds a single slice, and a surface takes two or more.");
+    assert_eq!(
+        one,
+        "The DICOM file cannot be opened as a scan: it holds a single slice, and a surface takes two or more."
+    );
     // Pictures and runs that are smaller than the file says.
     for syntax in [RLE, LOSSLESS] {
         let files: Files =

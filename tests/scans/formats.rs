@@ -279,7 +279,11 @@ fn structured_points_are_read_on_points_and_on_cells() {
         let field = format!("# vtk DataFile Version 3.0\nx\nBINARY\n{head}FIELD data 2\nvectors 3 120 float\n");
         let binary =
             [field.into_bytes(), vec![0; 1440], b"\nct 1 120 short\n".to_vec(), big(), b"\n".to_vec()].concat();
-        for bytes in [text.into_bytes(), binary] {
+        let described = format!(
+            "# vtk DataFile Version 4.2\nx\nASCII\n{head}FIELD data 2\nvectors 3 1 float\n0 0 0\nMETADATA\nINFORMATION 0\n\n"
+        );
+        let described = format!("{described}ct 1 120 short\n{numbers}\nMETADATA\nINFORMATION 0\n\n");
+        for bytes in [text.into_bytes(), binary, described.into_bytes()] {
             assert!(is_volume(&bytes));
             let scan = open(&[("a.vtk", bytes)]).unwrap();
             assert_eq!((scan.format, scan.axes), ("VTK", Axes::Unknown));
@@ -287,6 +291,21 @@ fn structured_points_are_read_on_points_and_on_cells() {
             assert_eq!(scan.grid.geometry().at(1.0, 1.0, 1.0).to_array(), [-9.5, 20.75, 302.0]);
         }
     }
+}
+
+/// All numbers are there before the damage: they count whether the file comes whole or in pieces.
+#[test]
+fn damage_behind_the_numbers_is_none_of_theirs() {
+    let header = [0x1F, 0x8B, 8, 0, 0, 0, 0, 0, 0, 3];
+    // A block of the numbers as they are, and one of a kind that there is not.
+    let packed = |whole: &[u8]| {
+        let length = whole.len() as u16;
+        [&header[..], &[0], &length.to_le_bytes(), &(!length).to_le_bytes(), whole, &[7; 9]].concat()
+    };
+    let bytes = [nrrd("gzip", "\n").into_bytes(), packed(&little())].concat();
+    assert_is_it(&open(&[("a.nrrd", bytes)]).unwrap(), "damage behind the numbers");
+    let nifti = [Nifti::first(false, true, b"n+1\0", 352.0), little()].concat();
+    assert_is_it(&open(&[("a.nii.gz", packed(&nifti))]).unwrap(), "damage behind the numbers of NIfTI");
 }
 
 /// Labels of two layers, one number of each after another.

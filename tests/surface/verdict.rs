@@ -1,8 +1,10 @@
 //! What a verdict says of surfaces of which it is known how much can be measured: open tubes, of which a radius is left out at
 //! each end.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
+use glam::DVec3;
 use lumen::io::{Format, ImportOptions, read, write};
 use lumen::mesh::TriMesh;
 use lumen::pipeline::report::Report;
@@ -14,8 +16,13 @@ use crate::smoothing::{tube, turned};
 
 /// The numbers and the verdict of a run that takes six tenths of the triangles; with the calibre, or without.
 fn verdict(mesh: &TriMesh, has_calibre: bool) -> (Report, Verdict) {
+    verdict_at(mesh, 600, has_calibre)
+}
+
+/// The same of a run to another rate, in tenths of a percent.
+fn verdict_at(mesh: &TriMesh, rate: u32, has_calibre: bool) -> (Report, Verdict) {
     let import = read(&write(mesh, None, Format::Obj).unwrap(), "a.obj", &ImportOptions::default()).unwrap();
-    let settings = Settings { target: Target::Reduction(600), ..Settings::default() };
+    let settings = Settings { target: Target::Reduction(rate), ..Settings::default() };
     let mut pipeline = Pipeline::new(Arc::new(import.mesh), settings).with_samples(200);
     if has_calibre {
         pipeline = pipeline.with_safe();
@@ -62,6 +69,28 @@ fn without_the_calibre_nothing_is_said_of_it() {
     assert_eq!((found.head, found.is_safe, found.coverage), (Head::NoneMeasured, None, None));
     assert_eq!(found.in_short(|message| message.to_string()), "No vessel was measured.");
     assert!(report.calibre.is_none() && report.safe.is_none());
+}
+
+/// Two legs of 30 mm at a half circle of 6 mm; taken apart too far, it loses 3 % of its volume.
+#[test]
+fn a_hairpin_that_is_narrower_than_it_was_is_nowhere_called_safe() {
+    const LEG: f64 = 30.0;
+    const BEND: f64 = 6.0;
+    let arc = BEND * PI;
+    let mut hairpin = tube(2.0, 2.0 * LEG + arc, 0.26, 0.02);
+    for position in &mut hairpin.positions {
+        let [x, y, z] = position.as_dvec3().to_array();
+        let (sin, cos) = ((z - LEG).clamp(0.0, arc) / BEND).sin_cos();
+        let beyond = (z - LEG).min(0.0) - (z - LEG - arc).max(0.0);
+        *position = DVec3::new((x - BEND) * cos, y, LEG + (BEND - x) * sin + beyond).as_vec3();
+    }
+    let (report, unmeasured) = verdict_at(&hairpin, 970, false);
+    assert!(report.volume_change_percent.unwrap() < -2.5, "{:?}", report.volume_change_percent);
+    assert_eq!((unmeasured.head, unmeasured.is_safe), (Head::NoneMeasured, None));
+    let (_, measured) = verdict_at(&hairpin, 970, true);
+    assert_eq!((measured.head, measured.is_safe), (Head::ToLookAt { count: 1 }, Some(false)), "{measured:?}");
+    let said = measured.calibre.unwrap().to_string();
+    assert!(said.starts_with("1 of 1 measured vessels changes by more than 2 %"), "{said}");
 }
 
 #[test]

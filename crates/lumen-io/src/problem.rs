@@ -90,6 +90,7 @@ messages! {
         "scan-dicom-no-spacing" NoSpacing => "it does not say how far apart its pixels are",
         "scan-dicom-no-places" NoPlaces => "it does not say where its slices are",
         "scan-dicom-no-slice" NoSlice => "none of its files holds a slice in shades of grey",
+        "scan-dicom-colours" Colours => "its pictures are in colours, and a surface takes shades of grey",
         "scan-dicom-single" SingleSlice => "it holds a single slice, and a surface takes two or more",
     }
 }

@@ -15,6 +15,13 @@ messages! {
             /// The first file's name.
             name: String,
         } => "\"{name}\" is not a volume that Lumen knows: it opens NIfTI, NRRD, MetaImage and VTI files and series of DICOM.",
+        /// A file, which may be sound, without what a volume takes.
+        "scan-no-scan" NoScan {
+            /// The format.
+            format: &'static str,
+            /// What it lacks.
+            problem: Problem,
+        } => "The {format} file cannot be opened as a scan: {problem}.",
         /// The numbers stand in a file of their own.
         "scan-data-elsewhere" DataElsewhere {
             /// The format.

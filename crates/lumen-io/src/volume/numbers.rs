@@ -1,7 +1,7 @@
 //! The numbers of a volume as they stand in a file: their type and number, and how they become samples. Those that are packed
 //! come through `stream`.
 
-use std::io::Read as _;
+use std::io::{BufReader, Read as _};
 
 use flate2::bufread::MultiGzDecoder;
 
@@ -48,7 +48,8 @@ pub(super) fn is_gzip(bytes: &[u8]) -> bool {
 /// What the beginning of a gzip file unfolds to: as many bytes as any header here has, or fewer where it is damaged.
 pub(super) fn first_unfolded(bytes: &[u8]) -> Vec<u8> {
     let mut head = vec![0; 600];
-    let (mut source, mut filled) = (MultiGzDecoder::new(bytes), 0);
+    // Byte by byte: what stands before damage counts, wherever that is.
+    let (mut source, mut filled) = (MultiGzDecoder::new(BufReader::with_capacity(1, bytes)), 0);
     while let Ok(read @ 1..) = source.read(&mut head[filled..]) {
         filled += read;
     }

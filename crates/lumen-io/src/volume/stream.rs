@@ -123,8 +123,9 @@ impl Stream {
     pub fn push(&mut self, piece: &[u8]) -> Result<(), ScanError> {
         let written = match &mut self.source {
             Source::Plain(sink) => sink.write_all(piece),
-            Source::Gzip(decoder) => decoder.write_all(piece),
-            Source::Zlib(decoder) => decoder.write_all(piece),
+            // What stands before the damage counts, wherever pieces end.
+            Source::Gzip(decoder) => decoder.write_all(piece).inspect_err(|_| drop(decoder.try_finish())),
+            Source::Zlib(decoder) => decoder.write_all(piece).inspect_err(|_| drop(decoder.try_finish())),
         };
         let sink = self.source.sink_mut();
         match (sink.failure.take(), written) {

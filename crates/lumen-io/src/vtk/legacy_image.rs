@@ -75,11 +75,10 @@ impl<'a> Found<'a> {
             b"field" => {
                 cursor.word();
                 for _ in 0..cursor.count()? {
-                    let Some(name) = cursor.word() else { break };
-                    if name.eq_ignore_ascii_case(b"metadata") {
+                    while cursor.comes(b"METADATA") {
                         cursor.skip_metadata();
-                        continue;
                     }
+                    cursor.word();
                     let (components, tuples) = (cursor.count()?, cursor.count()?);
                     let kind = cursor.word().unwrap_or_default();
                     self.array(kind, components, tuples, cursor)?;

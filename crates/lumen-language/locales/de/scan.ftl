@@ -141,6 +141,7 @@ scan-points = Das Volumen hat { $points } Punkte und dafür { $samples } Zahlen.
 ## Warum eine Datei nicht geöffnet wurde
 
 scan-no-volume = „{ $name }“ ist kein Volumen, das Lumen kennt: Es öffnet Dateien in NIfTI, NRRD, MetaImage und VTI und Serien in DICOM.
+scan-no-scan = Die Datei ({ $format }) lässt sich nicht als Scan öffnen: { $problem }.
 scan-data-elsewhere = Der Kopf in { $format } hat seine Zahlen in der Datei „{ $name }“: beide zusammen öffnen.
 scan-dicom-mixed = { $places ->
     [one] An einem Ort liegen mehrere Schichten, und nichts in den Dateien sagt, zu welchem Volumen jede gehört: die Dateien eines Volumens allein öffnen.
@@ -186,6 +187,7 @@ scan-dicom-no-directions = sie sagt nicht, wie ihre Schichten liegen
 scan-dicom-no-spacing = sie sagt nicht, wie weit ihre Pixel auseinanderliegen
 scan-dicom-no-places = sie sagt nicht, wo ihre Schichten liegen
 scan-dicom-no-slice = keine ihrer Dateien enthält eine Schicht in Graustufen
+scan-dicom-colours = ihre Bilder sind farbig, und eine Oberfläche braucht Graustufen
 scan-dicom-single = sie enthält eine einzige Schicht, und eine Oberfläche braucht zwei oder mehr
 scan-vti-wrong = „{ $name }“ ist falsch
 scan-vti-no-element = das Element „{ $name }“ fehlt
@@ -200,8 +202,9 @@ scan-number-type = Zahlen vom Typ { $kind }
 scan-file-a-slice = eine Datei je Schicht
 scan-encoding = die Kodierung { $name }
 scan-numbers-a-voxel = mehrere Zahlen je Voxel
-scan-dicom-deflated = einen mit Deflate gepackten Datensatz
 scan-dicom-jpeg-ls = JPEG-LS-Kompression
+scan-dicom-jpeg-bits = JPEG-Bilder mit { $bits } Bit
+scan-dicom-table = eine Tabelle der Werte (Modality LUT)
 scan-dicom-jpeg-2000 = JPEG-2000-Kompression
 scan-dicom-compression = eine unbekannte Kompression
 scan-dicom-bits = { $bits } Bit je Pixel

@@ -141,6 +141,7 @@ scan-points = Le volume a { $points } points et { $samples } nombres pour ceux-c
 ## Pourquoi un fichier n'a pas été ouvert
 
 scan-no-volume = « { $name } » n'est pas un volume que Lumen connaît : il ouvre les fichiers NIfTI, NRRD, MetaImage et VTI et les séries DICOM.
+scan-no-scan = Le fichier { $format } ne peut pas être ouvert comme scan : { $problem }.
 scan-data-elsewhere = L'en-tête { $format } garde ses nombres dans le fichier « { $name } » : ouvrir les deux ensemble.
 scan-dicom-mixed = { $places ->
     [one] Plusieurs coupes se trouvent à une même place, et rien dans les fichiers ne dit à quel volume chacune appartient : ouvrez les fichiers d'un seul volume.
@@ -186,6 +187,7 @@ scan-dicom-no-directions = il ne dit pas comment ses coupes sont orientées
 scan-dicom-no-spacing = il ne dit pas à quelle distance sont ses pixels
 scan-dicom-no-places = il ne dit pas où sont ses coupes
 scan-dicom-no-slice = aucun de ses fichiers ne contient une coupe en niveaux de gris
+scan-dicom-colours = ses images sont en couleurs, et une surface demande des niveaux de gris
 scan-dicom-single = il ne contient qu'une coupe, et une surface en demande deux ou plus
 scan-vti-wrong = « { $name } » est faux
 scan-vti-no-element = il n'a pas d'élément « { $name } »
@@ -200,8 +202,9 @@ scan-number-type = des nombres du type { $kind }
 scan-file-a-slice = un fichier par coupe
 scan-encoding = le codage { $name }
 scan-numbers-a-voxel = plusieurs nombres par voxel
-scan-dicom-deflated = un jeu de données compressé par deflate
 scan-dicom-jpeg-ls = la compression JPEG-LS
+scan-dicom-jpeg-bits = des images JPEG de { $bits } bits
+scan-dicom-table = une table de valeurs (modality LUT)
 scan-dicom-jpeg-2000 = la compression JPEG 2000
 scan-dicom-compression = une compression inconnue
 scan-dicom-bits = { $bits } bits par pixel

@@ -7,7 +7,8 @@
 //!
 //! The file's own elements are read by hand: many writers leave out their length, or get it wrong, or leave them out altogether.
 
-use std::io::Cursor;
+use std::borrow::Cow;
+use std::io::{Cursor, Read as _};
 
 use dicom_core::{Tag, VR};
 use dicom_encoding::TransferSyntax;
@@ -15,12 +16,14 @@ use dicom_parser::dataset::LazyDataToken;
 use dicom_parser::dataset::lazy_read::LazyDataSetReader;
 use dicom_parser::stateful::decode::StatefulDecode;
 use dicom_transfer_syntax_registry::entries;
+use flate2::read::DeflateDecoder;
 use glam::DVec3;
 
 use super::super::super::detect::{self, DataSet};
 use super::super::super::error::Feature;
-use super::super::super::problem::DicomProblem;
+use super::super::super::problem::{DicomProblem, ScanProblem};
 use super::super::error::ScanError;
+use super::super::numbers::{LARGEST, MAX_UNFOLDED};
 use super::tags;
 
 pub(super) const FORMAT: &str = "DICOM";
@@ -74,6 +77,12 @@ pub(super) struct File<'a> {
     segments: Vec<Values<'a>>,
     /// The pixels, or the fragments that they are packed into.
     pub(super) pixels: Vec<&'a [u8]>,
+    /// Where the fragments of each frame begin, as far as the file says it.
+    offsets: &'a [u8],
+    /// The first fragment of each frame, where frames have several.
+    pub(super) first_fragments: Vec<usize>,
+    /// Whether a table says what stored numbers stand for.
+    has_table: bool,
 }
 
 impl<'a> File<'a> {
@@ -94,7 +103,32 @@ impl<'a> File<'a> {
             (rows.into(), columns.into(), allocated, stored);
         file.has_places = file.each.iter().any(|values| find(values, tags::POSITION).is_some());
         file.frames = file.own(tags::FRAMES).and_then(Value::number).map_or(1, |frames| frames as usize).max(1);
+        if (2..file.pixels.len()).contains(&file.frames) {
+            file.first_fragments = file.begin_frames();
+        }
+        if file.has_table {
+            return Err(ScanError::unsupported(FORMAT, Feature::ValueTable));
+        }
         Ok(file)
+    }
+
+    /// The fragments with which frames begin: those that the table of offsets names, else those that begin a picture.
+    fn begin_frames(&self) -> Vec<usize> {
+        const HEADER: usize = 8;
+        let mut offsets = self.offsets.as_chunks().0.iter().map(|&word| u32::from_le_bytes(word) as usize).peekable();
+        let is_told = offsets.peek().is_some();
+        let mut at = 0;
+        let begins = self.pixels.iter().enumerate().filter_map(|(number, fragment)| {
+            let is_first = if is_told {
+                offsets.next_if_eq(&at).is_some()
+            } else {
+                // A JPEG picture, or a codestream of JPEG 2000.
+                fragment.starts_with(&[0xFF, 0xD8]) || fragment.starts_with(&[0xFF, 0x4F])
+            };
+            at += HEADER + fragment.len();
+            is_first.then_some(number)
+        });
+        begins.collect()
     }
 
     /// Takes an element that is in these sequences, in item `item` of the outermost.
@@ -105,6 +139,8 @@ impl<'a> File<'a> {
                 self.is_float |= tag != tags::PIXELS;
                 self.pixels.push(value.bytes);
             }
+            [tags::PIXELS] => self.offsets = value.bytes,
+            [tags::VALUE_TABLE] => self.has_table = true,
             [] if tags::OWN.contains(&tag) => self.own.push(value),
             [tags::SHARED_GROUPS, group] if tags::GROUPED.contains(&(group, tag)) => self.shared.push(value),
             [tags::FRAME_GROUPS, group] if tags::GROUPED.contains(&(group, tag)) => {
@@ -180,6 +216,11 @@ impl<'a> File<'a> {
         });
         let samples = self.own(tags::SAMPLES).map_or(1, Value::short);
         !self.pixels.is_empty() && is_grey && samples == 1 && self.rows * self.columns > 0
+    }
+
+    /// Whether its pictures are in colours.
+    pub(super) fn is_in_colours(&self) -> bool {
+        !self.pixels.is_empty() && !self.holds_slices() && self.own(tags::PHOTOMETRIC).is_some()
     }
 
     /// Whether its pixels say which segment they are of.
@@ -297,24 +338,77 @@ fn long(bytes: &[u8]) -> usize {
     bytes.first_chunk().map_or(0, |&word| u32::from_le_bytes(word) as usize)
 }
 
+/// A file as `dicom-parser` takes it: not deflated, and with the lengths of sequences whose kind is not known.
+pub(super) fn prepared(bytes: &[u8]) -> Result<Cow<'_, [u8]>, ScanError> {
+    let (syntax, rest) = meta(bytes);
+    let mut file = Cow::from(bytes);
+    if syntax == "1.2.840.10008.1.2.1.99" {
+        let mut whole = bytes[..bytes.len() - rest.len()].to_vec();
+        let most = LARGEST.min(MAX_UNFOLDED * rest.len() as u64);
+        let read = DeflateDecoder::new(rest).take(most).read_to_end(&mut whole);
+        read.map_err(|_| ScanError::malformed(FORMAT, ScanProblem::PackedDamaged))?;
+        file = whole.into();
+    }
+    if syntax != "1.2.840.10008.1.2.2" {
+        give_lengths(&mut file);
+    }
+    Ok(file)
+}
+
+/// Gives their lengths to sequences without one that stand before the pixels where the kind of a value is not known (UN).
+/// Their elements are implicit (PS3.5, 6.2.2, note 2), and `dicom-parser` takes them for those of the transfer syntax.
+fn give_lengths(file: &mut Cow<'_, [u8]>) {
+    const UNKNOWN: &[u8] = b"UN\0\0\xFF\xFF\xFF\xFF";
+    const PIXELS: &[u8] = &[0xE0, 0x7F, 0x10, 0x00, b'O'];
+    let mut at = 0;
+    while let Some(next) = file
+        .get(at..)
+        .and_then(|rest| rest.windows(UNKNOWN.len()).position(|here| here == UNKNOWN || here.starts_with(PIXELS)))
+    {
+        at += next + UNKNOWN.len();
+        if file[..at].ends_with(UNKNOWN)
+            && let Some(length) = sequence_length(&file[at..])
+        {
+            file.to_mut()[at - 4..at].copy_from_slice(&length.to_le_bytes());
+            at += length as usize;
+        } else {
+            break;
+        }
+    }
+}
+
+/// The length of a sequence of implicit elements that ends with a delimiter, that included.
+fn sequence_length(all: &[u8]) -> Option<u32> {
+    const UNDEFINED: u32 = u32::MAX;
+    let (mut at, mut open) = (0usize, 1usize);
+    while open > 0 {
+        let tag = *all.get(at..)?.first_chunk::<4>()?;
+        let length = u32::from_le_bytes(*all.get(at + 4..)?.first_chunk()?);
+        at += 8;
+        match (tag, length) {
+            ([0xFE, 0xFF, 0x0D | 0xDD, 0xE0], _) => open -= 1,
+            (_, UNDEFINED) => open += 1,
+            _ => at = at.checked_add(length as usize)?,
+        }
+    }
+    at.try_into().ok()
+}
+
 /// How the pixels of a transfer syntax are packed, and how its elements are encoded. What the elements look like counts where
 /// nothing is said, and where it is not so: some write the one uncompressed syntax and name the other.
 fn packing(syntax: &str, data_set: &[u8]) -> Result<(Packing, TransferSyntax), ScanError> {
-    let explicit = entries::EXPLICIT_VR_LITTLE_ENDIAN.erased();
     let refused = |what: Feature| Err(ScanError::unsupported(FORMAT, what));
     let looks = detect::data_set(data_set);
+    let explicit = entries::EXPLICIT_VR_LITTLE_ENDIAN.erased();
+    let implicit = entries::IMPLICIT_VR_LITTLE_ENDIAN.erased();
     match syntax.strip_prefix("1.2.840.10008.1.2").unwrap_or(if syntax.is_empty() { "" } else { "?" }) {
-        "" | ".1" if looks == Some(DataSet::Implicit) => {
-            Ok((Packing::Little, entries::IMPLICIT_VR_LITTLE_ENDIAN.erased()))
-        }
-        "" | ".1" if looks == Some(DataSet::Explicit) => Ok((Packing::Little, explicit)),
         "" | ".1" if looks == Some(DataSet::BigEndian) => Ok((Packing::Big, entries::EXPLICIT_VR_BIG_ENDIAN.erased())),
-        "" => Ok((Packing::Little, entries::IMPLICIT_VR_LITTLE_ENDIAN.erased())),
-        ".1" => Ok((Packing::Little, explicit)),
+        "" | ".1" | ".1.99" if looks == Some(DataSet::Implicit) => Ok((Packing::Little, implicit)),
+        "" if looks.is_none() => Ok((Packing::Little, implicit)),
+        "" | ".1" | ".1.99" => Ok((Packing::Little, explicit)),
         ".2" => Ok((Packing::Big, entries::EXPLICIT_VR_BIG_ENDIAN.erased())),
         ".5" => Ok((Packing::Rle, explicit)),
         ".4.50" | ".4.51" | ".4.57" | ".4.70" => Ok((Packing::Jpeg, explicit)),
-        ".1.99" => refused(Feature::Deflated),
         ".4.80" | ".4.81" => refused(Feature::JpegLs),
         ".4.90" | ".4.91" => Ok((Packing::Jpeg2000, explicit)),
         // Of several components, and of high throughput.
@@ -365,8 +459,9 @@ fn walk<'a>(
             LazyDataToken::LazyItemValue { len, decoder } => {
                 let value = value(bytes, decoder.position(), len).ok_or_else(cut_short)?;
                 decoder.skip_bytes(len).map_err(|_| broken())?;
-                if items > 1 && path == [tags::PIXELS] {
-                    take(&[], 0, tags::PIXELS, VR::OB, value);
+                if path == [tags::PIXELS] {
+                    let within = if items > 1 { &[] } else { &path[..] };
+                    take(within, 0, tags::PIXELS, VR::OB, value);
                 }
             }
             _ => {}

@@ -50,8 +50,9 @@ struct Slice<'f, 'a> {
 /// Reads a volume from the files of a folder: that of number `choice`, from 0, or the one of most slices.
 pub(super) fn read(parts: &[&Part], choice: Option<usize>) -> Result<Scan, ScanError> {
     let (mut files, mut unreadable) = (Vec::new(), Unreadable::default());
-    for part in parts {
-        match File::parse(part.bytes) {
+    let prepared: Vec<_> = parts.iter().map(|part| file::prepared(part.bytes)).collect();
+    for bytes in &prepared {
+        match bytes.as_ref().map_err(ScanError::clone).and_then(|bytes| File::parse(bytes)) {
             Ok(file) => files.push(file),
             Err(error) => unreadable.add(error),
         }
@@ -62,7 +63,8 @@ pub(super) fn read(parts: &[&Part], choice: Option<usize>) -> Result<Scan, ScanE
     let empty = files.iter().filter(|file| !file.holds_slices()).count();
     let series = series(&files, &mut unreadable);
     if series.is_empty() {
-        return Err(if empty == files.len() { missing(DicomProblem::NoSlice) } else { unreadable.into_error() });
+        let none = if files.iter().any(File::is_in_colours) { DicomProblem::Colours } else { DicomProblem::NoSlice };
+        return Err(if empty == files.len() { missing(none) } else { unreadable.into_error() });
     }
     let sizes: Vec<usize> = series.iter().map(Vec::len).collect();
     let volumes: Vec<(usize, Volume)> = series.into_iter().enumerate().flat_map(volumes_of).collect();
@@ -175,9 +177,9 @@ impl Unreadable {
     }
 }
 
-/// That a file does not say what it should.
+/// That a file, which may be sound, does not have what a volume takes.
 fn missing(what: DicomProblem) -> ScanError {
-    ScanError::malformed(FORMAT, what)
+    ScanError::NoScan { format: FORMAT, problem: what.into() }
 }
 
 /// The slices of all files, each with its place, those of a kind together: images first, then segments.
@@ -231,7 +233,7 @@ fn same_pixels(a: &Slice, b: &Slice) -> bool {
 /// The mean step from a slice to the next, which a tilted gantry makes oblique.
 fn step(slices: &[Slice], warnings: &mut Vec<Warning>) -> Result<DVec3, ScanError> {
     let [first, .., last] = slices else {
-        return Err(ScanError::malformed(FORMAT, DicomProblem::SingleSlice));
+        return Err(missing(DicomProblem::SingleSlice));
     };
     let steps = (slices.len() - 1) as f64;
     let distances: Vec<f64> = slices.windows(2).map(|two| two[1].height - two[0].height).collect();

@@ -5,8 +5,9 @@
 //! `hayro-jpeg2000`, which forbids unsafe code, as a bare codestream alone, which is all that DICOM has.
 
 use hayro_jpeg2000::{DecodeSettings, DecoderContext, Image};
-use jpeg_decoder::{Decoder, PixelFormat};
+use jpeg_decoder::{Decoder, Error, PixelFormat, UnsupportedFeature};
 
+use super::super::super::error::Feature;
 use super::super::super::problem::DicomProblem;
 use super::super::error::ScanError;
 use super::super::numbers::{LARGEST, MAX_UNFOLDED};
@@ -59,11 +60,15 @@ fn bits(file: &File, frame: usize, pixels: usize) -> Option<Vec<u8>> {
     (end <= all.len().saturating_mul(8)).then(|| (start..end).map(bit).collect())
 }
 
-/// The fragments of a frame, one after another: a fragment for each frame, or all of them for a file's only one.
+/// The fragments of a frame, one after another: all of them for a file's only one, a fragment for each, or several.
 fn packed(file: &File, frame: usize) -> Option<Vec<u8>> {
     match file.frames {
         1 => Some(file.pixels.concat()),
         frames if frames == file.pixels.len() => file.pixels.get(frame).map(|fragment| fragment.to_vec()),
+        frames if frames == file.first_fragments.len() => {
+            let end = file.first_fragments.get(frame + 1).copied().unwrap_or(file.pixels.len());
+            Some(file.pixels.get(*file.first_fragments.get(frame)?..end)?.concat())
+        }
         _ => None,
     }
 }
@@ -110,7 +115,12 @@ fn run_lengths(packed: &[u8], size: usize, bytes: usize) -> Option<Vec<u8>> {
 fn picture(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
     let damaged = || ScanError::malformed(FORMAT, DicomProblem::Jpeg);
     let mut decoder = Decoder::new(packed);
-    decoder.read_info().map_err(|_| damaged())?;
+    decoder.read_info().map_err(|error| match error {
+        Error::Unsupported(UnsupportedFeature::SamplePrecision(bits)) => {
+            ScanError::unsupported(FORMAT, Feature::JpegBits { bits })
+        }
+        _ => damaged(),
+    })?;
     let info = decoder.info().ok_or_else(damaged)?;
     let (width, height) = (usize::from(info.width), usize::from(info.height));
     let size = match info.pixel_format {

@@ -22,6 +22,8 @@ pub(super) const STORED: Tag = Tag(0x0028, 0x0101);
 pub(super) const SIGNED: Tag = Tag(0x0028, 0x0103);
 pub(super) const INTERCEPT: Tag = Tag(0x0028, 0x1052);
 pub(super) const SLOPE: Tag = Tag(0x0028, 0x1053);
+/// A sequence with a table of what stored numbers stand for.
+pub(super) const VALUE_TABLE: Tag = Tag(0x0028, 0x3000);
 pub(super) const SEGMENTATION_TYPE: Tag = Tag(0x0062, 0x0001);
 pub(super) const LARGEST_FRACTION: Tag = Tag(0x0062, 0x000E);
 pub(super) const FLOAT_PIXELS: Tag = Tag(0x7FE0, 0x0008);
