@@ -11,6 +11,7 @@ mod samples;
 mod selection;
 mod slice;
 mod surface;
+mod surface_nets;
 mod survey;
 mod window;
 
@@ -23,6 +24,7 @@ pub use samples::{SampleType, Samples};
 pub use selection::{NamedThreshold, PRESETS, Preset, PresetName, Presets, Selection};
 pub use slice::{Axis, Slice, slice};
 pub use surface::{MAX_TRIANGLES, region_of, surface, surface_in_slices};
+pub use surface_nets::{LabelledSurface, Relaxation, surface_nets, surface_nets_in_slices};
 pub use survey::{BINS, Label, Survey, survey, survey_in_slices};
 pub use window::{WINDOWS, Window, WindowName};
 

@@ -20,8 +20,10 @@ pub enum Selection {
     Threshold(f64),
     /// This label of a mask.
     Label(i64),
-    /// Every label of a mask but 0.
+    /// Every label of a mask but 0, as one body.
     AnyLabel,
+    /// Every label of a mask but 0, with the borders between them where the surface is one of nets; else as one body.
+    EachLabel,
 }
 
 messages! {
@@ -138,7 +140,10 @@ pub(super) struct Selected {
     grid: Arc<Grid>,
     region: Region,
     test: Test,
+    has_each_label: bool,
     k: usize,
+    /// Kept for the next row.
+    runs: Vec<Range<usize>>,
 }
 
 /// A selection in terms of the stored numbers.
@@ -157,9 +162,30 @@ impl Selected {
             Selection::Threshold(value) if grid.is_inverted() => Test::AtMost(grid.stored_for(value)),
             Selection::Threshold(value) => Test::AtLeast(grid.stored_for(value)),
             Selection::Label(label) => Test::Within(grid.stored_for_label(label as f64)),
-            Selection::AnyLabel => Test::Outside(grid.stored_for_label(0.0)),
+            Selection::AnyLabel | Selection::EachLabel => Test::Outside(grid.stored_for_label(0.0)),
         };
-        Self { grid, region, test, k: 0 }
+        Self { grid, region, test, has_each_label: selection == Selection::EachLabel, k: 0, runs: Vec::new() }
+    }
+
+    /// The labels of slice `k`, i running fastest: what is outside has 0, what is inside its own if each is asked for, else 1.
+    pub(super) fn labels(&mut self, k: usize, labels: &mut [u16]) {
+        self.begin_slice(k);
+        labels.fill(0);
+        let mut runs = std::mem::take(&mut self.runs);
+        for (j, row) in labels.chunks_exact_mut(self.region.size()[0]).enumerate() {
+            runs.clear();
+            self.row(j, &mut runs);
+            for run in &runs {
+                row[run.clone()].fill(1);
+                if self.has_each_label {
+                    let start = self.index([0, j, k]);
+                    for i in run.clone() {
+                        row[i] = libm::round(self.grid.value_of(self.grid.samples().stored(start + i))) as u16;
+                    }
+                }
+            }
+        }
+        self.runs = runs;
     }
 
     fn index(&self, [i, j, k]: [usize; 3]) -> usize {

@@ -65,11 +65,12 @@ async fn limited(
     let selected = Selected::new(Arc::clone(grid), selection, region);
     let cubes = MarchingCubes::new(&grid.geometry().cropped(&region), selected);
     let mesh = cubes.surface(limit, yielder).await.ok_or(VolumeError::TooManyTriangles { limit })?;
-    match mesh.triangles.len() {
-        0 if region == Region::all(grid.geometry()) => Err(VolumeError::NothingThere),
-        0 => Err(VolumeError::NoSurface),
-        _ => Ok(mesh),
-    }
+    if mesh.triangles.is_empty() { Err(none_found(grid, region)) } else { Ok(mesh) }
+}
+
+/// That all of a part of a volume lies on one side.
+pub(super) fn none_found(grid: &Grid, region: Region) -> VolumeError {
+    if region == Region::all(grid.geometry()) { VolumeError::NothingThere } else { VolumeError::NoSurface }
 }
 
 #[cfg(test)]
