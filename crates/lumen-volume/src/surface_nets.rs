@@ -30,7 +30,7 @@ use super::error::VolumeError;
 use super::geometry::Region;
 use super::grid::Grid;
 use super::selection::{Selected, Selection};
-use super::surface::{MAX_TRIANGLES, none_found, region_of};
+use super::surface::{Cut, MAX_TRIANGLES, none_found};
 use lumen_mesh::TriMesh;
 use lumen_mesh::task::{Yielder, at_once, blocks};
 
@@ -77,21 +77,20 @@ pub fn surface_nets(
     region: Option<Region>,
     relaxation: Relaxation,
 ) -> Result<LabelledSurface, VolumeError> {
-    at_once(surface_nets_in_slices(grid, selection, region_of(grid, region)?, relaxation, &Yielder::never()))
+    at_once(surface_nets_in_slices(grid, Cut { region, ..Cut::new(selection) }, relaxation, &Yielder::never()))
 }
 
-/// As [`surface_nets`], resting after each layer of cells; `region` is from [`region_of`].
+/// As [`surface_nets`], of any cut, resting after each layer of cells.
 ///
 /// # Errors
 /// As [`surface_in_slices`](super::surface_in_slices).
 pub async fn surface_nets_in_slices(
     grid: &Arc<Grid>,
-    selection: Selection,
-    region: Region,
+    cut: Cut,
     relaxation: Relaxation,
     yielder: &Yielder,
 ) -> Result<LabelledSurface, VolumeError> {
-    let mut selected = Selected::new(Arc::clone(grid), selection, region);
+    let (mut selected, region) = cut.selected(grid, yielder).await?;
     let mut nets = Nets::new(region.size());
     for layer in 0..=region.size()[2] {
         nets.advance(layer, &mut selected);
@@ -198,9 +197,12 @@ impl Nets {
         }
         for j in 0..=ny {
             let [near, far] = [j.saturating_sub(1), j.min(ny - 1)];
-            let extents = [&self.lower, &self.upper].into_iter().flat_map(|slice| [&slice.extents[near], &slice.extents[far]]);
+            let extents =
+                [&self.lower, &self.upper].into_iter().flat_map(|slice| [&slice.extents[near], &slice.extents[far]]);
             let touched = extents.filter(|extent| !extent.is_empty());
-            let Some(touched) = touched.cloned().reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)) else { continue };
+            let Some(touched) = touched.cloned().reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)) else {
+                continue;
+            };
             let column = |nets: &Self, i: usize| {
                 let [near, far] = [near * nx + i, far * nx + i];
                 let (lower, upper) = (&nets.lower.of_voxel, &nets.upper.of_voxel);
@@ -246,14 +248,15 @@ impl Nets {
             let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
             // An edge's place on the other two axes has the lower of them in the lower bit.
             let (of_u, of_v) = if u < v { (1, 2) } else { (2, 1) };
-            let mut quad = [(0, 0, 0), (1, 0, of_u), (1, 1, of_u | of_v), (0, 1, of_v)].map(|(back_u, back_v, place)| {
-                let mut other = cell;
-                other[u] -= back_u;
-                other[v] -= back_v;
-                let layer = &self.layers[usize::from(other[2] == cell[2])];
-                let at = other[1] * (self.size[0] + 1) + other[0];
-                layer.first[at] + u32::from(self.loops.of_edge(layer.case[at], 4 * axis + place))
-            });
+            let mut quad =
+                [(0, 0, 0), (1, 0, of_u), (1, 1, of_u | of_v), (0, 1, of_v)].map(|(back_u, back_v, place)| {
+                    let mut other = cell;
+                    other[u] -= back_u;
+                    other[v] -= back_v;
+                    let layer = &self.layers[usize::from(other[2] == cell[2])];
+                    let at = other[1] * (self.size[0] + 1) + other[0];
+                    layer.first[at] + u32::from(self.loops.of_edge(layer.case[at], 4 * axis + place))
+                });
             let sides = sides(two[0], two[1]);
             if sides[0] != two[0] {
                 quad.swap(1, 3);
@@ -311,7 +314,11 @@ impl Nets {
             for q in block {
                 let [a, b, c, d] = self.quads[q];
                 let length = |a: u32, b: u32| self.positions[a as usize].distance_squared(self.positions[b as usize]);
-                triangles.extend(if length(a, c) <= length(b, d) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
+                triangles.extend(if length(a, c) <= length(b, d) {
+                    [[a, b, c], [a, c, d]]
+                } else {
+                    [[a, b, d], [b, c, d]]
+                });
                 sides.extend([self.sides[q]; 2]);
                 for [a, b] in [[a, b], [b, c], [c, d], [d, a]] {
                     if let Some(quads) = at_double.get_mut(&[a.min(b), a.max(b)]) {
@@ -334,7 +341,9 @@ impl Nets {
             for q in quads.into_iter().filter(|&q| self.inside_voxel(self.quads[q]) != kept) {
                 let own = added.entry(q).or_default();
                 let mut of_quad = [2 * q, 2 * q + 1].into_iter().chain(own.iter().copied());
-                let Some(t) = of_quad.find(|&t| triangles[t].contains(&a) && triangles[t].contains(&b)) else { continue };
+                let Some(t) = of_quad.find(|&t| triangles[t].contains(&a) && triangles[t].contains(&b)) else {
+                    continue;
+                };
                 let halves = [a, b].map(|end| triangles[t].map(|corner| if corner == end { middle } else { corner }));
                 triangles[t] = halves[0];
                 own.push(triangles.len());

@@ -56,8 +56,8 @@ fn a_ball_a_torus_and_a_tube_keep_their_volume() {
             let found = mesh.positions.len() as i64 - counts.edges as i64 + mesh.triangles.len() as i64;
             assert_eq!(found, euler);
             let ratio = volume(&mesh, &topology) / exact;
-            // Relaxing draws walls inwards, within their cells: 4 % of a radius of four voxels.
-            assert!((0.9..1.02).contains(&ratio), "{ratio}");
+            // Relaxing draws walls inwards, within their cells: 7 % of a radius of four voxels.
+            assert!((0.85..1.02).contains(&ratio), "{ratio}");
         }
     }
 }
@@ -66,7 +66,8 @@ fn a_ball_a_torus_and_a_tube_keep_their_volume() {
 fn a_surface_is_open_at_the_faces_and_at_a_box_and_reaches_them() {
     // An oblique tube through all slices, on axes of a left hand.
     let direction = DMat3::from_cols(DVec3::Y, DVec3::X, DVec3::Z);
-    let geometry = Geometry { size: [30, 28, 20], spacing: DVec3::new(0.5, 0.6, 0.75), origin: DVec3::splat(3.0), direction };
+    let geometry =
+        Geometry { size: [30, 28, 20], spacing: DVec3::new(0.5, 0.6, 0.75), origin: DVec3::splat(3.0), direction };
     let mask = grid_of(geometry, |[i, j, k]| {
         let [x, y] = [2 * i as i32 - 25 - k as i32 / 2, 2 * j as i32 - 27];
         u8::from(x * x + y * y < 150)
@@ -115,7 +116,7 @@ fn the_surface_of_every_label_of_a_map_is_closed_and_wound_outwards() {
         assert_eq!((counts.boundary, counts.flipped), (0, 0), "label {label}");
         let own = volume(&alone, &topology);
         let voxels = (0..map.samples().len()).filter(|&n| map.samples().stored(n) == f64::from(label)).count();
-        assert!((own / (voxels as f64 * voxel) - 1.0).abs() < 0.05, "label {label}: {own} mm3, {voxels} voxels");
+        assert!((own / (voxels as f64 * voxel) - 1.0).abs() < 0.1, "label {label}: {own} mm3, {voxels} voxels");
         sum += own;
     }
     let whole = body(&map, Relaxation::default());
@@ -127,10 +128,9 @@ fn the_surface_of_every_label_of_a_map_is_closed_and_wound_outwards() {
 #[test]
 fn a_slice_of_work_leaves_the_surface_the_same() {
     let map = map();
-    let region = region_of(&map, None).unwrap();
     let (relaxation, own) = (Relaxation::default(), Arc::clone(&map));
     let mut running = Running::new(|yielder| async move {
-        surface_nets_in_slices(&own, Selection::EachLabel, region, relaxation, &yielder).await.unwrap()
+        surface_nets_in_slices(&own, Cut::new(Selection::EachLabel), relaxation, &yielder).await.unwrap()
     });
     let mut rests = 0;
     let found = loop {
