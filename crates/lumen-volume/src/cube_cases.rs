@@ -17,6 +17,8 @@
 //! Every crossed edge lies on one loop of each of its four cubes, so the surface of any mask is a manifold, in its
 //! vertices too.
 
+use glam::{IVec3, Vec3};
+
 /// The edges of a cube in which a surface can have a vertex.
 pub(crate) const EDGES: usize = 12;
 
@@ -47,6 +49,46 @@ impl CubeCases {
     pub(crate) fn triangles(&self, case: u8) -> &[[u8; 3]] {
         let case = usize::from(case);
         &self.triangles[usize::from(self.starts[case])..usize::from(self.starts[case + 1])]
+    }
+}
+
+/// The loops of every case, each of which is one vertex of a surface net.
+pub(crate) struct CubeLoops {
+    /// For each case, the loop that each edge lies on.
+    of_edge: Vec<[u8; EDGES]>,
+    /// For each case, the middle of each loop's edges in the unit cube.
+    middles: Vec<Vec<Vec3>>,
+}
+
+impl CubeLoops {
+    /// Traces all cases; case 0, which no surface crosses, has one loop of all edges.
+    pub(crate) fn new() -> Self {
+        let mut of_edge = vec![[0; EDGES]; 256];
+        let mut middles = vec![vec![Vec3::splat(0.5)]];
+        for case in 1..256 {
+            let loops = loops(case as u8);
+            for (n, edges) in loops.iter().enumerate() {
+                for &edge in edges {
+                    of_edge[case][edge] = n as u8;
+                }
+            }
+            let middle = |edges: &Vec<usize>| {
+                let doubled = edges.iter().map(|&edge| IVec3::from(doubled_midpoint(edge))).sum::<IVec3>();
+                doubled.as_vec3() / (2 * edges.len()) as f32
+            };
+            middles.push(loops.iter().map(middle).collect());
+        }
+        Self { of_edge, middles }
+    }
+
+    /// The loop of a case that a crossed edge lies on.
+    pub(crate) fn of_edge(&self, case: u8, edge: usize) -> u8 {
+        self.of_edge[usize::from(case)][edge]
+    }
+
+    /// Where the loops of a case lie in the unit cube.
+    pub(crate) fn middles(&self, case: u8) -> &[Vec3] {
+        &self.middles[usize::from(case)]
     }
 }
 

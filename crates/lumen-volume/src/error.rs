@@ -51,6 +51,15 @@ messages! {
             /// Points along i, j, k.
             size: [usize; 3],
         } => { format!("The box holds nothing of the volume, which has {} voxels.", product(*size)) },
+        /// A seed that is not in what is chosen.
+        "scan-seed-outside" SeedOutside {
+            /// The value there.
+            value: f64,
+        } => "The seed is not in the vessel: its value {value} is not chosen.",
+        /// A seed where there is no voxel, or none of the box.
+        "scan-seed-nowhere" SeedNowhere => "The seed is not in the scan, or not in the box.",
+        /// A seed around which no edge is.
+        "scan-seed-no-edge" NoEdge => "No edge of a vessel was found around the seed: set the threshold.",
         /// Slices for which there would be no memory.
         "scan-slice-too-large" SliceTooLarge {
             /// Points of a slice.

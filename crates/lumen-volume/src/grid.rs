@@ -1,5 +1,7 @@
 //! A volume: a grid in the patient, and a number for each of its points.
 
+use glam::DVec3;
+
 use super::error::VolumeError;
 use super::geometry::Geometry;
 use super::samples::Samples;
@@ -66,6 +68,23 @@ impl Grid {
     /// The value of a point, which must be in the grid.
     pub fn value(&self, point: [usize; 3]) -> f64 {
         self.value_of(self.samples.stored(self.index(point)))
+    }
+
+    /// The value at a place in voxels, interpolated linearly along the three axes; `None` outside of the grid, or beside a number
+    /// that is none.
+    pub(super) fn between(&self, at: DVec3) -> Option<f64> {
+        let size = self.geometry.size;
+        let is_in = (0..3).all(|axis| (0.0..=(size[axis] - 1) as f64).contains(&at[axis]));
+        let low: [usize; 3] =
+            std::array::from_fn(|axis| (at[axis].max(0.0) as usize).min(size[axis].saturating_sub(2)));
+        let part = at - DVec3::from_array(low.map(|along| along as f64));
+        let corner = |n: usize| {
+            let offset = [n & 1, n >> 1 & 1, n >> 2];
+            let weights = (0..3).map(|axis| if offset[axis] == 1 { part[axis] } else { 1.0 - part[axis] });
+            let weight: f64 = weights.product();
+            if weight == 0.0 { 0.0 } else { weight * self.value(std::array::from_fn(|axis| low[axis] + offset[axis])) }
+        };
+        is_in.then(|| (0..8).map(corner).sum::<f64>()).filter(|value| value.is_finite())
     }
 
     /// The number of a point, which must be in the grid.

@@ -5,12 +5,14 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::connected::{Bits, connected};
 use super::error::{Known, VolumeError};
 use super::geometry::Region;
 use super::grid::Grid;
 use super::marching_cubes::Mask;
 use super::samples::{Sample, with_samples};
 use super::survey::Survey;
+use lumen_mesh::task::Yielder;
 use lumen_message::messages;
 
 /// What lies inside.
@@ -20,8 +22,10 @@ pub enum Selection {
     Threshold(f64),
     /// This label of a mask.
     Label(i64),
-    /// Every label of a mask but 0.
+    /// Every label of a mask but 0, as one body.
     AnyLabel,
+    /// Every label of a mask but 0, with the borders between them where the surface is one of nets; else as one body.
+    EachLabel,
 }
 
 messages! {
@@ -138,7 +142,12 @@ pub(super) struct Selected {
     grid: Arc<Grid>,
     region: Region,
     test: Test,
+    has_each_label: bool,
+    /// Where only a part is: the voxels of it.
+    connected: Option<Bits>,
     k: usize,
+    /// Kept for the next row.
+    runs: Vec<Range<usize>>,
 }
 
 /// A selection in terms of the stored numbers.
@@ -157,9 +166,68 @@ impl Selected {
             Selection::Threshold(value) if grid.is_inverted() => Test::AtMost(grid.stored_for(value)),
             Selection::Threshold(value) => Test::AtLeast(grid.stored_for(value)),
             Selection::Label(label) => Test::Within(grid.stored_for_label(label as f64)),
-            Selection::AnyLabel => Test::Outside(grid.stored_for_label(0.0)),
+            Selection::AnyLabel | Selection::EachLabel => Test::Outside(grid.stored_for_label(0.0)),
         };
-        Self { grid, region, test, k: 0 }
+        Self {
+            grid,
+            region,
+            test,
+            has_each_label: selection == Selection::EachLabel,
+            connected: None,
+            k: 0,
+            runs: Vec::new(),
+        }
+    }
+
+    /// Only what is connected to a voxel of the region, from 0.
+    ///
+    /// # Errors
+    /// [`VolumeError::SeedOutside`].
+    pub(super) async fn connected_to(mut self, seed: [usize; 3], yielder: &Yielder) -> Result<Self, VolumeError> {
+        self.connected = Some(connected(&self, seed, yielder).await?);
+        Ok(self)
+    }
+
+    /// Voxels along the axes.
+    pub(super) fn size(&self) -> [usize; 3] {
+        self.region.size()
+    }
+
+    /// The value of a voxel of the region.
+    pub(super) fn value(&self, point: [usize; 3]) -> f64 {
+        self.grid.value_of(self.grid.samples().stored(self.index(point)))
+    }
+
+    /// Whether a voxel of the region is of the selection, connected or not.
+    pub(super) fn is_inside(&self, point: [usize; 3]) -> bool {
+        let value = self.grid.samples().stored(self.index(point));
+        match self.test {
+            Test::AtLeast(bound) => value >= bound,
+            Test::AtMost(bound) => value <= bound,
+            Test::Within([low, high]) => low <= value && value <= high,
+            Test::Outside([low, high]) => value < low || high < value,
+        }
+    }
+
+    /// The labels of slice `k`, i running fastest: what is outside has 0, what is inside its own if each is asked for, else 1.
+    pub(super) fn labels(&mut self, k: usize, labels: &mut [u16]) {
+        self.begin_slice(k);
+        labels.fill(0);
+        let mut runs = std::mem::take(&mut self.runs);
+        for (j, row) in labels.chunks_exact_mut(self.region.size()[0]).enumerate() {
+            runs.clear();
+            self.row(j, &mut runs);
+            for run in &runs {
+                row[run.clone()].fill(1);
+                if self.has_each_label {
+                    let start = self.index([0, j, k]);
+                    for i in run.clone() {
+                        row[i] = libm::round(self.grid.value_of(self.grid.samples().stored(start + i))) as u16;
+                    }
+                }
+            }
+        }
+        self.runs = runs;
     }
 
     fn index(&self, [i, j, k]: [usize; 3]) -> usize {
@@ -181,6 +249,7 @@ impl Mask for Selected {
 
     fn row(&mut self, j: usize, runs: &mut Vec<Range<usize>>) {
         let first = self.index([0, j, self.k]);
+        let known = runs.len();
         let row = first..first + self.region.size()[0];
         with_samples!(self.grid.samples(), values => {
             let values = &values[row];
@@ -191,6 +260,19 @@ impl Mask for Selected {
                 Test::Outside([low, high]) => runs_where(values, runs, |value| value < low || high < value),
             }
         });
+        if let Some(connected) = &self.connected {
+            // A run is connected in itself.
+            let [nx, ny, _] = self.region.size();
+            let row = (self.k * ny + j) * nx;
+            let mut kept = known;
+            for n in known..runs.len() {
+                if connected.has(row + runs[n].start) {
+                    runs.swap(kept, n);
+                    kept += 1;
+                }
+            }
+            runs.truncate(kept);
+        }
     }
 
     fn crossing(&self, point: [usize; 3], axis: usize) -> f64 {

@@ -2,11 +2,14 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::error::VolumeError;
 use super::geometry::Region;
 use super::grid::Grid;
 use super::marching_cubes::MarchingCubes;
 use super::selection::{Selected, Selection};
+use super::surface_nets::{Relaxation, surface_nets_in_slices};
 use lumen_mesh::TriMesh;
 use lumen_mesh::task::{Yielder, at_once};
 
@@ -23,7 +26,7 @@ const MAX_OF_A_SLICE: usize = 1 << 26;
 /// # Errors
 /// As [`region_of`], and [`VolumeError::NoSurface`], [`VolumeError::NothingThere`], [`VolumeError::TooManyTriangles`].
 pub fn surface(grid: &Arc<Grid>, selection: Selection, region: Option<Region>) -> Result<TriMesh, VolumeError> {
-    at_once(surface_in_slices(grid, selection, region_of(grid, region)?, &Yielder::never()))
+    at_once(surface_in_slices(grid, Cut { region, ..Cut::new(selection) }, &Yielder::never()))
 }
 
 /// The part of a volume within a box; all of it without one.
@@ -42,34 +45,69 @@ pub fn region_of(grid: &Grid, region: Option<Region>) -> Result<Region, VolumeEr
     Ok(region)
 }
 
-/// As [`surface`], resting after each layer of cubes; `region` is from [`region_of`].
-///
-/// # Errors
-/// [`VolumeError::NoSurface`], [`VolumeError::NothingThere`], [`VolumeError::TooManyTriangles`].
-pub async fn surface_in_slices(
-    grid: &Arc<Grid>,
-    selection: Selection,
-    region: Region,
-    yielder: &Yielder,
-) -> Result<TriMesh, VolumeError> {
-    limited(grid, selection, region, MAX_TRIANGLES, yielder).await
+/// What a surface is made of, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cut {
+    /// What lies inside.
+    pub selection: Selection,
+    /// Only here.
+    pub region: Option<Region>,
+    /// Only what is connected to this voxel of the volume, from 0.
+    pub seed: Option<[usize; 3]>,
+    /// How.
+    pub method: Method,
 }
 
-async fn limited(
-    grid: &Arc<Grid>,
-    selection: Selection,
-    region: Region,
-    limit: usize,
-    yielder: &Yielder,
-) -> Result<TriMesh, VolumeError> {
-    let selected = Selected::new(Arc::clone(grid), selection, region);
+/// How a surface is made of voxels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Method {
+    /// Where values reach the threshold; half way between voxels of a mask.
+    #[default]
+    MarchingCubes,
+    /// Between the voxels of a mask, relaxed within their cells.
+    SurfaceNets,
+}
+
+impl Cut {
+    /// A selection anywhere, by marching cubes.
+    pub fn new(selection: Selection) -> Self {
+        Self { selection, region: None, seed: None, method: Method::MarchingCubes }
+    }
+
+    /// What marching cubes and surface nets ask, and where.
+    pub(super) async fn selected(self, grid: &Arc<Grid>, yielder: &Yielder) -> Result<(Selected, Region), VolumeError> {
+        let region = region_of(grid, self.region)?;
+        let selected = Selected::new(Arc::clone(grid), self.selection, region);
+        let Some(seed) = self.seed else { return Ok((selected, region)) };
+        if (0..3).any(|axis| !(region.first[axis]..=region.last[axis]).contains(&seed[axis])) {
+            return Err(VolumeError::SeedNowhere);
+        }
+        let seed = std::array::from_fn(|axis| seed[axis] - region.first[axis]);
+        Ok((selected.connected_to(seed, yielder).await?, region))
+    }
+}
+
+/// As [`surface`], of any cut, resting after each layer of cubes.
+///
+/// # Errors
+/// As [`surface`], and [`VolumeError::SeedNowhere`], [`VolumeError::SeedOutside`].
+pub async fn surface_in_slices(grid: &Arc<Grid>, cut: Cut, yielder: &Yielder) -> Result<TriMesh, VolumeError> {
+    match cut.method {
+        Method::MarchingCubes => limited(grid, cut, MAX_TRIANGLES, yielder).await,
+        Method::SurfaceNets => Ok(surface_nets_in_slices(grid, cut, Relaxation::default(), yielder).await?.mesh),
+    }
+}
+
+async fn limited(grid: &Arc<Grid>, cut: Cut, limit: usize, yielder: &Yielder) -> Result<TriMesh, VolumeError> {
+    let (selected, region) = cut.selected(grid, yielder).await?;
     let cubes = MarchingCubes::new(&grid.geometry().cropped(&region), selected);
     let mesh = cubes.surface(limit, yielder).await.ok_or(VolumeError::TooManyTriangles { limit })?;
-    match mesh.triangles.len() {
-        0 if region == Region::all(grid.geometry()) => Err(VolumeError::NothingThere),
-        0 => Err(VolumeError::NoSurface),
-        _ => Ok(mesh),
-    }
+    if mesh.triangles.is_empty() { Err(none_found(grid, region)) } else { Ok(mesh) }
+}
+
+/// That all of a part of a volume lies on one side.
+pub(super) fn none_found(grid: &Grid, region: Region) -> VolumeError {
+    if region == Region::all(grid.geometry()) { VolumeError::NothingThere } else { VolumeError::NoSurface }
 }
 
 #[cfg(test)]
@@ -216,8 +254,7 @@ mod tests {
     fn more_triangles_than_can_be_worked_on_are_refused() {
         let geometry = oblique(false);
         let grid = Arc::new(Grid::new(geometry, ball(geometry, |value| value as i16), 1.0, 0.0).unwrap());
-        let region = region_of(&grid, None).unwrap();
-        let found = at_once(limited(&grid, Selection::Threshold(300.0), region, 1000, &Yielder::never()));
+        let found = at_once(limited(&grid, Cut::new(Selection::Threshold(300.0)), 1000, &Yielder::never()));
         assert_eq!(found, Err(VolumeError::TooManyTriangles { limit: 1000 }));
     }
 }
