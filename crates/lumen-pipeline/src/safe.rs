@@ -8,7 +8,8 @@
 //! pinched anywhere (`super::pinch`, which looks at every rate) is not safe either. That no triangles cross that did
 //! not is so at every rate.
 //!
-//! Branches that smoothing itself has changed by more are told, and do not count: no rate would be safe for them. A
+//! Branches that smoothing itself has changed by more are told, and do not count: no rate would be safe for them, and the
+//! surface as a whole is not called safe at any. A
 //! branch of which a tenth can no longer be measured counts as changed, but for places where the plane has another loop
 //! though the wall has not moved (`StationStatus::Ambiguous`): of these there is nothing to say, neither for nor against.
 //!
@@ -48,7 +49,7 @@ pub struct Safe {
     pub percent: Option<f64>,
     /// Triangles at that rate.
     pub triangles: Option<usize>,
-    /// How much of the vessels is measured at that rate; `None` where there is none.
+    /// How much of the vessels is kept at that rate, those not that smoothing has changed; `None` where there is none.
     pub coverage: Option<Coverage>,
     /// Why it does not go further; `None` where nothing stops it.
     pub stopped_by: Option<Stop>,
@@ -147,9 +148,11 @@ impl Safe {
         Self { tolerance_percent, percent, triangles, coverage, stopped_by, branches, refused }
     }
 
-    /// Whether so much is measured that the rate is safe for the whole surface, and not only kept where it is measured.
+    /// Whether the rate is safe for the whole surface, and not only kept where it is measured: enough is measured, and
+    /// smoothing has changed no vessel.
     pub fn is_covered(&self) -> bool {
-        self.coverage.is_some_and(|found| found.is_enough())
+        let is_changed = self.branches.iter().any(|branch| branch.changed_by_smoothing);
+        !is_changed && self.coverage.is_some_and(|found| found.is_enough())
     }
 }
 
@@ -239,6 +242,12 @@ impl Search {
         self.pinch.is_some_and(|pinch| f64::from(per_mille) / 10.0 >= pinch.from_percent - 1e-6)
     }
 
+    /// How much of the vessels is kept there, where it is safe.
+    fn kept(&self, look: &Look) -> Coverage {
+        let changed = look.branches.iter().enumerate().filter(|(i, _)| !self.counts(*i));
+        changed.fold(look.coverage(), |coverage, (_, branch)| coverage.without(branch))
+    }
+
     /// Whether too little is measured there, though at first it was enough.
     fn is_uncovered(&self, look: &Look) -> bool {
         let is_enough = |look: &Look| look.coverage().is_enough();
@@ -316,7 +325,7 @@ impl Search {
             tolerance_percent: self.tolerance_percent,
             percent: good.map(Look::percent),
             triangles: good.map(|look| look.triangles),
-            coverage: good.map(Look::coverage),
+            coverage: good.map(|look| self.kept(look)),
             stopped_by,
             branches: first.iter().enumerate().map(|(i, branch)| self.branch(i, branch)).collect(),
             refused,

@@ -98,6 +98,7 @@ verdict-crossing-before = { $count ->
    *[other] { $count } Dreiecke schneiden andere; vor der Reduktion waren es { $before }.
 }
 verdict-narrower = Wie geöffnet ist { $name } über { $length } mm um { $percent } % enger als zu beiden Seiten: { $reference }.
+verdict-wider = Wie geöffnet ist { $name } über { $length } mm um { $percent } % weiter als zu beiden Seiten: { $reference }.
 verdict-few-iterations = Zu wenige Iterationen für dieses Durchlassband: Zum Glätten braucht es mehr.
 verdict-shortfall-topology = Weiter als auf { $reached } Dreiecke lässt sich diese Oberfläche nicht reduzieren (gewünscht waren { $wanted }): Weiteres Entfernen würde ein offenes Ende schließen oder ein Gefäß einschnüren
 verdict-shortfall-geometry = Weiter als auf { $reached } Dreiecke lässt sich diese Oberfläche nicht reduzieren (gewünscht waren { $wanted }): Weiteres Entfernen würde die Oberfläche auf sich selbst falten
@@ -109,6 +110,7 @@ verdict-place-hole = Loch
 verdict-place-here = Hier
 verdict-place-narrowed = Eingeschnürt
 verdict-place-narrower = { $percent } % enger
+verdict-place-wider = { $percent } % weiter
 verdict-place-pinched = eingeschnürt
 verdict-place-lost = verloren
 verdict-place-shut = Zugezogen

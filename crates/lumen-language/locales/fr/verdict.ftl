@@ -98,6 +98,7 @@ verdict-crossing-before = { $count ->
    *[other] { $count } triangles en croisent d'autres ; { $before } avant la réduction.
 }
 verdict-narrower = À l'ouverture, la { $name } est plus étroite de { $percent } % que de part et d'autre, sur { $length } mm : { $reference }.
+verdict-wider = À l'ouverture, la { $name } est plus large de { $percent } % que de part et d'autre, sur { $length } mm : { $reference }.
 verdict-few-iterations = Trop peu d'itérations pour cette bande passante : il en faut davantage pour lisser.
 verdict-shortfall-topology = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : en retirer davantage fermerait une extrémité ouverte ou pincerait un vaisseau
 verdict-shortfall-geometry = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : en retirer davantage replierait la surface sur elle-même
@@ -109,6 +110,7 @@ verdict-place-hole = Trou
 verdict-place-here = Ici
 verdict-place-narrowed = Pincé
 verdict-place-narrower = { $percent } % plus étroit
+verdict-place-wider = { $percent } % plus large
 verdict-place-pinched = pincé
 verdict-place-lost = perdu
 verdict-place-shut = Fermé

@@ -104,6 +104,17 @@ messages! {
             /// What is left, and of what.
             reference: ReferenceText,
         } => "As opened, {name} is {percent:.0} % narrower over {length:.1} mm than on either side: {reference}.",
+        /// A vessel is wider than on either side.
+        "verdict-wider" Wider {
+            /// Which.
+            name: BranchName,
+            /// By how much of its diameter, in percent.
+            percent: f64 [0],
+            /// Over which length, in mm.
+            length: f64 [1],
+            /// How wide, and beside what.
+            reference: ReferenceText,
+        } => "As opened, {name} is {percent:.0} % wider over {length:.1} mm than on either side: {reference}.",
         /// The filter misses its pass band.
         "verdict-few-iterations" FewIterations =>
             "Too few iterations for this pass band: more are needed to smooth.",
@@ -156,6 +167,11 @@ messages! {
             /// By how much of its diameter, in percent.
             percent: f64 [0],
         } => "{percent:.0} % narrower",
+        /// A vessel is wider than on either side.
+        "verdict-place-wider" Wider {
+            /// By how much of its diameter, in percent.
+            percent: f64 [0],
+        } => "{percent:.0} % wider",
         /// A vessel is pinched.
         "verdict-place-pinched" Pinched => "pinched",
         /// A vessel is lost.

@@ -67,7 +67,7 @@ impl Verdict {
             findings.extend(of_report(known, report));
         }
         findings.extend(calibre(known));
-        findings.extend(narrower(known));
+        findings.extend(uneven(known));
         let of_file = known.import.warnings.iter().filter(|warning| !matches!(warning, Warning::Size(_)));
         findings.extend(
             of_file
@@ -273,15 +273,24 @@ fn calibre(known: &Known<'_>) -> Option<Finding> {
     Some(finding.helped_by(help.or_else(|| less(known))))
 }
 
-/// The stretch that is most narrower than on either side, as opened.
-fn narrower(known: &Known<'_>) -> Option<Finding> {
-    let certificate = known.calibre?.as_ref().ok()?;
-    let each = certificate.branches.iter().filter_map(|branch| Some((branch, branch.uneven()[0]?)));
-    let most = each.reduce(|most, next| if next.1.degree_percent > most.1.degree_percent { next } else { most });
-    let (branch, found) = most?;
-    let (percent, length) = (found.degree_percent, found.length_mm);
-    let what = FindingKind::Narrower { name: branch.label(), percent, length, reference: found.reference() };
-    Some(Finding::note(what).at(found.at_mm, found.diameter_mm, PlaceLabel::Narrower { percent }))
+/// The stretches that are most narrower and most wider than on either side, as opened.
+fn uneven(known: &Known<'_>) -> Vec<Finding> {
+    let Some(Ok(certificate)) = known.calibre else { return Vec::new() };
+    let most = |side: usize| {
+        let each = certificate.branches.iter().filter_map(|branch| Some((branch.label(), branch.uneven()[side]?)));
+        each.reduce(|most, next| if next.1.degree_percent > most.1.degree_percent { next } else { most })
+    };
+    let narrower = most(0).map(|(name, found)| {
+        let (percent, length, reference) = (found.degree_percent, found.length_mm, found.reference());
+        let what = FindingKind::Narrower { name, percent, length, reference };
+        Finding::note(what).at(found.at_mm, found.diameter_mm, PlaceLabel::Narrower { percent })
+    });
+    let wider = most(1).map(|(name, found)| {
+        let (percent, length, reference) = (found.degree_percent, found.length_mm, found.reference());
+        let what = FindingKind::Wider { name, percent, length, reference };
+        Finding::note(what).at(found.at_mm, found.diameter_mm, PlaceLabel::Wider { percent })
+    });
+    narrower.into_iter().chain(wider).collect()
 }
 
 /// How wide a branch is at a place, in mm.

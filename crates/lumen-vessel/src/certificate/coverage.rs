@@ -52,6 +52,18 @@ impl Coverage {
         found
     }
 
+    /// The same, with nothing of this branch among what is measured.
+    #[must_use]
+    pub fn without(mut self, branch: &BranchCalibre) -> Self {
+        self.vessels_measured -= usize::from(branch.verdict != Verdict::NotMeasured);
+        for (i, standing) in branch.standings.iter().enumerate() {
+            if *standing == StationStatus::Counts {
+                self.measured_mm -= branch.length_at(i);
+            }
+        }
+        self
+    }
+
     fn part(&mut self, standing: StationStatus) -> &mut f64 {
         match standing {
             StationStatus::Counts => &mut self.measured_mm,
