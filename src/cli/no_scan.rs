@@ -5,7 +5,9 @@ use std::path::Path;
 use anyhow::{Error, Result, bail};
 
 use super::scan_options::ScanOptions;
-use crate::io::{Imported, ReadError};
+use crate::io::{Axes, Imported, ReadError};
+use crate::mesh::TriMesh;
+use crate::volume::LabelledSurface;
 
 /// What is said of a folder without surfaces: it may be a scan.
 pub(super) const FOLDER_HINT: &str = "; a folder of DICOM takes a build with scans (feature scans)";
@@ -35,8 +37,23 @@ pub(super) fn open(names: &[String], _: &ScanOptions) -> Result<Option<Opened>> 
 
 impl Opened {
     /// There is none.
-    pub(super) fn surface(self, _: &ScanOptions) -> Result<Imported> {
-        match self {}
+    pub(super) fn surface(&self, _: &ScanOptions) -> Result<Imported> {
+        match *self {}
+    }
+
+    /// There is none.
+    pub(super) fn borders(&self, _: &ScanOptions) -> Result<Option<LabelledSurface>> {
+        match *self {}
+    }
+
+    /// There is none.
+    pub(super) fn axes(&self) -> Axes {
+        match *self {}
+    }
+
+    /// There is none.
+    pub(super) fn print_threshold(&self, _: &ScanOptions, _: &TriMesh) -> Result<()> {
+        match *self {}
     }
 
     /// There is none.

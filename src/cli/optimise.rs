@@ -126,7 +126,9 @@ impl Optimise {
             }
         }
         if self.scan.is_any() {
-            return Err(misuse("--threshold, --label and --box are for one scan: say a file for its surface with -o"));
+            return Err(misuse(
+                "--threshold, --label, --seed, --method and --box are for one scan: say a file for its surface with -o",
+            ));
         }
         if asked.wants_safe && self.save_settings.is_some() {
             return Err(misuse(

@@ -6,11 +6,17 @@ use std::sync::Arc;
 use anyhow::{Context, Error, Result, bail};
 use serde::Serialize;
 
+use super::misuse::misuse;
 use super::rows::row;
-use super::scan_options::ScanOptions;
+use super::scan_options::{ScanOptions, SurfaceMethod};
 use crate::io::volume::{self, Part};
 use crate::io::{Axes, Imported, Offer, ReadError, Warning, import_mesh, in_english};
-use crate::volume::{Grid, Label, PRESETS, Selection, Survey, surface, survey};
+use crate::mesh::TriMesh;
+use crate::task::{Yielder, at_once};
+use crate::volume::{
+    Cut, Grid, HalfWay, Label, LabelledSurface, Method, PRESETS, Relaxation, Selection, Survey, VolumeError, half_way,
+    shifts_mm, surface_in_slices, surface_nets, survey,
+};
 
 /// What is said of a folder without surfaces: it may be a scan.
 pub(super) const FOLDER_HINT: &str = "; for a folder of DICOM say --threshold or --label, and a file for the surface";
@@ -99,13 +105,63 @@ pub(super) fn open(names: &[String], options: &ScanOptions) -> Result<Option<Ope
 }
 
 impl Opened {
+    /// What the surface is made of that the options ask for, and the values that a threshold is half way between which was
+    /// found.
+    fn cut(&self, options: &ScanOptions) -> Result<(Cut, Option<HalfWay>)> {
+        let seed = options.seed.map(|place| self.grid.geometry().voxel_at(place).ok_or(VolumeError::SeedNowhere));
+        let seed = seed.transpose()?;
+        let is_open = options.threshold.or(options.label.map(|label| label as f64)).is_none();
+        let found = match seed.filter(|_| is_open && !self.survey.is_mask()) {
+            Some(seed) => Some(half_way(&self.grid, seed).ok_or(VolumeError::NoEdge)?),
+            None => None,
+        };
+        let threshold = options.threshold.or(found.map(|found| found.threshold));
+        let selection = Selection::choose(&self.survey, threshold, options.label)?;
+        let method = match options.method {
+            Some(SurfaceMethod::Nets) if matches!(selection, Selection::Threshold(_)) => {
+                return Err(misuse("--method nets is for masks: a threshold lies between voxels"));
+            }
+            Some(SurfaceMethod::Nets) => Method::SurfaceNets,
+            Some(SurfaceMethod::Cubes) | None => Method::MarchingCubes,
+        };
+        Ok((Cut { selection, region: options.region, seed, method }, found))
+    }
+
+    /// The borders of all labels where the options ask for these.
+    pub(super) fn borders(&self, options: &ScanOptions) -> Result<Option<LabelledSurface>> {
+        let (cut, _) = self.cut(options)?;
+        let asked = (cut.method, cut.selection, options.seed);
+        if asked != (Method::SurfaceNets, Selection::AnyLabel, None) || self.survey.labels.len() < 2 {
+            return Ok(None);
+        }
+        Ok(Some(surface_nets(&self.grid, Selection::EachLabel, cut.region, Relaxation::default())?))
+    }
+
+    /// What coordinates grow towards.
+    pub(super) fn axes(&self) -> Axes {
+        self.axes
+    }
+
+    /// Prints the threshold of a surface in the axes of the scan, and by how much another would move it.
+    pub(super) fn print_threshold(&self, options: &ScanOptions, mesh: &TriMesh) -> Result<()> {
+        let (cut, found) = self.cut(options)?;
+        if let Some(HalfWay { threshold, vessel, background }) = found {
+            row("threshold", format!("{threshold:.1}, half way from {vessel:.1} to {background:.1}"));
+        }
+        if let Some([lower, higher]) = shifts_mm(&self.grid, mesh, cut.selection) {
+            row("threshold 10 % lower", format!("wall {lower:+.3} mm"));
+            row("threshold 10 % higher", format!("wall {higher:+.3} mm"));
+        }
+        Ok(())
+    }
+
     /// The surface that the options ask for, in the axes of the scan.
-    pub(super) fn surface(self, options: &ScanOptions) -> Result<Imported> {
-        let selection = Selection::choose(&self.survey, options.threshold, options.label)?;
-        let mesh = surface(&self.grid, selection, options.region)?;
+    pub(super) fn surface(&self, options: &ScanOptions) -> Result<Imported> {
+        let (cut, _) = self.cut(options)?;
+        let mesh = at_once(surface_in_slices(&self.grid, cut, &Yielder::never()))?;
         let mut imported = import_mesh(mesh, self.format);
         imported.report.axes = self.axes;
-        imported.report.warnings.splice(..0, self.warnings);
+        imported.report.warnings.splice(..0, self.warnings.iter().cloned());
         Ok(imported)
     }
 

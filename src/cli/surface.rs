@@ -1,5 +1,6 @@
 //! `lumen surface`: the surface in a scan or a mask, as a file.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
@@ -9,7 +10,9 @@ use super::places::{self, output_format, write_whole};
 use super::rows::row;
 use super::scan;
 use super::scan_options::ScanOptions;
-use crate::io::{self, Imported};
+use crate::io::{self, Axes, Format, Imported};
+use crate::mesh::arrays::{Array, Association, Scalar, Values};
+use crate::volume::LabelledSurface;
 
 /// Writes the surface of what reaches a threshold in a scan, or of a label of a mask, in mm; in LPS where the scan says how the patient lies.
 #[derive(Debug, Args)]
@@ -32,6 +35,12 @@ impl Surface {
         let Some(opened) = scan::open(&self.files, &self.scan)? else {
             bail!("{} is not a scan or a mask", self.files[0]);
         };
+        if let Some(borders) = opened.borders(&self.scan)? {
+            for warning in opened.warnings() {
+                eprintln!("lumen: warning: {warning}");
+            }
+            return self.write_borders(&borders, opened.axes(), format);
+        }
         let Imported { mesh, report, .. } = opened.surface(&self.scan)?;
         for warning in &report.warnings {
             eprintln!("lumen: warning: {warning}");
@@ -44,6 +53,30 @@ impl Surface {
         row("largest component", format!("{} triangles", report.largest_component_triangles));
         row("size", format!("{:.3} x {:.3} x {:.3} mm", size.x, size.y, size.z));
         row("axes", report.axes);
+        opened.print_threshold(&self.scan, &mesh)?;
+        row("written to", self.output.display());
+        Ok(())
+    }
+
+    /// Writes the borders between labels, with those that each triangle has inside and outside.
+    fn write_borders(&self, borders: &LabelledSurface, axes: Axes, format: Format) -> Result<()> {
+        let LabelledSurface { mesh, sides } = borders;
+        let labels = Values::of(Scalar::I32, sides.as_flattened().iter().map(|&label| f64::from(label)));
+        let arrays = [Array::new("BoundaryLabels", Association::Triangle, 2, labels)];
+        if let Some(left_out) = io::left_out(&arrays, format) {
+            eprintln!("lumen: warning: {left_out}");
+        }
+        let output = io::Output { mesh, normals: None, arrays: &arrays, axes };
+        write_whole(&self.output, &io::write_output(&output, format)?)?;
+        let mut between = BTreeMap::new();
+        for sides in sides {
+            *between.entry(sides).or_insert(0) += 1;
+        }
+        row("triangles", mesh.triangles.len());
+        for ([inside, outside], triangles) in between {
+            row(&format!("between {inside} and {outside}"), format!("{triangles} triangles"));
+        }
+        row("axes", axes);
         row("written to", self.output.display());
         Ok(())
     }

@@ -26,7 +26,7 @@ pub use marching_cubes::{MarchingCubes, Mask};
 pub use reduced::{PREVIEW_POINTS, preview_step, reduced_in_slices};
 pub use samples::{SampleType, Samples};
 pub use selection::{NamedThreshold, PRESETS, Preset, PresetName, Presets, Selection};
-pub use sensitivity::shift_mm;
+pub use sensitivity::{shift_mm, shifts_mm};
 pub use slice::{Axis, Slice, slice};
 pub use surface::{Cut, MAX_TRIANGLES, Method, region_of, surface, surface_in_slices};
 pub use surface_nets::{LabelledSurface, Relaxation, surface_nets, surface_nets_in_slices};

@@ -9,7 +9,7 @@ use crate::app::scan::{self, Told};
 use crate::app::sharing::{self, Sharing};
 use crate::app::state::{Effect, State};
 use crate::app::{keys, large, lesson, recovery, verdict};
-use crate::language::tell;
+use crate::language::{decimal, tell};
 use crate::pipeline::verdict::Verdict;
 use crate::say;
 
@@ -148,7 +148,12 @@ impl LumenApp {
             && let Some(event) = link.poll()
         {
             match self.panels.scan.scans.receive(event, link) {
-                Some(Told::Made(source)) => self.state.open(source, self.platform.link()),
+                Some(Told::Made(source, shifts_mm)) => {
+                    self.state.open(source, self.platform.link());
+                    if let Some([lower, higher]) = shifts_mm.map(|shifts| shifts.map(|mm| decimal(mm, 2))) {
+                        self.state.tell(&say!("scan-shifts", lower = lower, higher = higher));
+                    }
+                }
                 Some(Told::Refused(sentence)) => self.state.warn(&sentence),
                 Some(Told::Stopped) => self.state.tell(&say!("app-scan-cancelled")),
                 None => {}

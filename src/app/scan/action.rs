@@ -1,6 +1,6 @@
 //! What can be asked of a scan, and which of its slices are shown behind the surface.
 
-use crate::volume::{Axis, Region, Selection};
+use crate::volume::{Axis, Method, Region, Selection};
 
 /// What can be asked of a scan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,6 +9,10 @@ pub enum Action {
     Volume(usize),
     /// What of it is the vessel.
     Select(Selection),
+    /// Only what is connected to this voxel, if one is given; where values are those of a scan, with the threshold around it.
+    Seed(Option<[usize; 3]>),
+    /// How the surface is made.
+    Method(Method),
     /// Look only here.
     Bound(Region),
     /// Show this slice.

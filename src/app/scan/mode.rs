@@ -121,9 +121,7 @@ impl Filling for ScanPanel {
     }
 
     fn fill(&mut self, ui: &mut Ui, _: &State, views: &mut Views, is_narrow: bool) -> Vec<Action> {
-        if let Some(scan) = self.scans.shown() {
-            self.view.show(ui, scan, views, is_narrow);
-        }
-        Vec::new()
+        let clicked = self.scans.shown().and_then(|scan| self.view.show(ui, scan, views, is_narrow));
+        clicked.map(|seed| Action::Scan(OfScan::Seed(Some(seed)))).into_iter().collect()
     }
 }

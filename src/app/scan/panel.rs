@@ -12,7 +12,7 @@ use crate::engine::scan::ScanWork;
 use crate::io::Offer;
 use crate::language::{Key, decimal, grouped, inner, tell};
 use crate::say;
-use crate::volume::{Axis, PRESETS, Region, Selection};
+use crate::volume::{Axis, Method, PRESETS, Region, Selection};
 
 /// The axes of a grid as a user knows them.
 const AXES: [(Axis, Key); 3] =
@@ -28,9 +28,11 @@ pub(super) fn show(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     ui.separator();
     if scan.opened.survey.is_mask() {
         labels(ui, scan, asked);
+        method(ui, scan, asked);
     } else {
         threshold(ui, scan, asked);
     }
+    seed(ui, scan, asked);
     ui.separator();
     bounds(ui, scan, asked);
     ui.separator();
@@ -90,6 +92,34 @@ fn threshold(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     }
 }
 
+/// The voxel that the vessel is connected to, and what was found around it.
+fn seed(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
+    let Some(seed) = scan.seed else { return remark(ui, &say!("scan-seed-click")) };
+    row(ui, &say!("scan-seed"), &say!("scan-seed-help"), |ui| {
+        if ui.button(say!("scan-seed-remove")).clicked() {
+            asked.push(Action::Seed(None));
+        }
+        ui.label(seed.map(|along| along.to_string()).join(", "));
+    });
+    if let Some(found) = &scan.half_way {
+        let [vessel, around] = [found.vessel, found.background].map(|value| grouped(format!("{value:.0}")));
+        remark(ui, &say!("scan-half-way", vessel = vessel, around = around, unit = scan.unit()));
+    }
+}
+
+/// How the surface of a mask is made.
+fn method(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
+    row(ui, &say!("scan-method"), &say!("scan-method-help"), |ui| {
+        for (method, text) in
+            [(Method::SurfaceNets, say!("scan-surface-nets")), (Method::MarchingCubes, say!("scan-marching-cubes"))]
+        {
+            if ui.selectable_label(method == scan.method, text).clicked() {
+                asked.push(Action::Method(method));
+            }
+        }
+    });
+}
+
 fn volumes(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     let opened = &scan.opened;
     let has_series = opened.offers.iter().any(|offer| offer.series != opened.offers[0].series);
@@ -125,7 +155,7 @@ fn labels(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
                 None => say!("scan-label", label = label.to_string()),
             }
         }
-        Selection::AnyLabel | Selection::Threshold(_) => say!("scan-all-labels"),
+        Selection::AnyLabel | Selection::EachLabel | Selection::Threshold(_) => say!("scan-all-labels"),
     };
     let known = scan.opened.survey.labels.iter().map(|label| Selection::Label(label.value));
     row(ui, &say!("scan-vessel"), &say!("scan-vessel-help"), |ui| {

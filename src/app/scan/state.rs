@@ -5,9 +5,10 @@ use std::sync::Arc;
 use super::{Action, KeptScan};
 use crate::engine::Source;
 use crate::engine::scan::{NamedFile, OpenedScan, ScanCommand, ScanEvent, ScanLink, ScanWork};
+use crate::language::tell;
 use crate::mesh::{Bounds, TriMesh};
 use crate::say;
-use crate::volume::{Axis, PRESETS, Region, Selection, WINDOWS};
+use crate::volume::{Axis, Cut, HalfWay, Method, PRESETS, Region, Selection, VolumeError, WINDOWS};
 
 /// A scan that takes no more bytes than this is kept for its slices unless that is turned off.
 const KEPT: u64 = 256_000_000;
@@ -46,6 +47,12 @@ pub struct OpenScan {
     pub selection: Selection,
     /// Where it is looked at.
     pub region: Region,
+    /// The voxel that the vessel is connected to.
+    pub seed: Option<[usize; 3]>,
+    /// What was found around it.
+    pub half_way: Option<HalfWay>,
+    /// How the surface is made.
+    pub method: Method,
     /// The slice that is asked for.
     pub slice: (Axis, usize),
     /// The values that are black and white in it.
@@ -65,7 +72,7 @@ pub struct OpenScan {
     /// The surface that is on its way.
     making: Option<u64>,
     /// What the newest preview was asked for with.
-    previewed: Option<(Selection, Region)>,
+    previewed: Option<Cut>,
     /// The slice that was asked for last.
     pictured: Option<(Axis, usize, [f64; 2])>,
 }
@@ -88,8 +95,8 @@ pub struct Picture {
 /// What has to happen outside.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Told {
-    /// A surface was made: it is to be opened.
-    Made(Source),
+    /// A surface was made: it is to be opened. By how many mm it moves outwards at a threshold 10 % lower and 10 % higher.
+    Made(Source, Option<[f64; 2]>),
     /// Something could not be done: one plain sentence.
     Refused(String),
     /// The scan that was on its way in is not opened.
@@ -175,6 +182,13 @@ impl Scans {
                 self.read_volume(name, files, Some(number), link);
             }
             Action::Select(selection) => open.selection = selection,
+            Action::Seed(seed) => {
+                (open.seed, open.half_way) = (seed, None);
+                if let (Some(seed), Selection::Threshold(_)) = (seed, open.selection) {
+                    link.send(ScanCommand::HalfWay { seed });
+                }
+            }
+            Action::Method(method) => open.method = method,
             Action::Bound(region) => open.region = region,
             Action::Slice(axis, index) => open.slice = (axis, index),
             Action::Window(window) => open.window = window,
@@ -184,8 +198,7 @@ impl Scans {
                 // A preview that is on its way gives way; after a cancel it is asked for again.
                 open.previewed.take_if(|_| open.awaited.is_some());
                 (open.making, open.awaited, open.problem) = (Some(self.number), None, None);
-                let (selection, region) = (open.selection, Some(open.region));
-                link.send(ScanCommand::Surface { generation: self.number, selection, region });
+                link.send(ScanCommand::Surface { generation: self.number, cut: open.cut() });
             }
             Action::Cancel => link.send(ScanCommand::Cancel),
             Action::Close | Action::Slices(_) => {}
@@ -211,12 +224,11 @@ impl Scans {
             }
             return;
         };
-        let wanted = (open.selection, open.region);
+        let wanted = open.cut();
         if open.awaited.is_none() && open.making.is_none() && open.previewed != Some(wanted) {
             self.number += 1;
             (open.awaited, open.previewed) = (Some(self.number), Some(wanted));
-            let (selection, region) = wanted;
-            link.send(ScanCommand::Preview { generation: self.number, selection, region: Some(region), step: None });
+            link.send(ScanCommand::Preview { generation: self.number, cut: wanted, step: None });
         }
         let ((axis, index), window) = (open.slice, open.window);
         let shown = open.picture.as_ref().map(|picture| (picture.slice.0, picture.slice.1, picture.window));
@@ -274,7 +286,7 @@ impl Scans {
                 (open.preview, open.problem) = (Some((mesh, step, bounds)), None);
                 (open.awaited, open.progress) = (None, None);
             }
-            ScanEvent::Surface { generation, mesh, .. } if open.making == Some(generation) => {
+            ScanEvent::Surface { generation, mesh, shifts_mm } if open.making == Some(generation) => {
                 let OpenedScan { format, axes, warnings, .. } = open.opened.clone();
                 let source = Source::Made { name: open.name.clone(), format, mesh, axes, warnings };
                 if let (Source::Made { mesh, .. }, true) = (&source, open.keeps) {
@@ -284,7 +296,14 @@ impl Scans {
                     link.send(ScanCommand::Close);
                 }
                 self.open = None;
-                return Some(Told::Made(source));
+                return Some(Told::Made(source, shifts_mm));
+            }
+            ScanEvent::HalfWay { seed, found } if open.seed == Some(seed) => {
+                open.half_way = found;
+                match found {
+                    Some(found) => open.selection = Selection::Threshold(found.threshold),
+                    None => return Some(Told::Refused(tell(&VolumeError::NoEdge))),
+                }
             }
             ScanEvent::Slice { axis, index, size, pixels, window, corners } => {
                 let [first, across, _, down] = corners.map(glam::DVec3::from);
@@ -318,6 +337,9 @@ impl OpenScan {
             files,
             selection: Selection::Threshold((low + high) / 2.0),
             region: Region { first: [0; 3], last },
+            seed: None,
+            half_way: None,
+            method: Method::default(),
             slice: (Axis::K, last[2] / 2),
             window: opened.survey.bulk(),
             keeps: opened.bytes <= KEPT,
@@ -341,6 +363,11 @@ impl OpenScan {
             open.window = WINDOWS[0].ends;
         }
         open
+    }
+
+    /// What the surface is made of.
+    fn cut(&self) -> Cut {
+        Cut { selection: self.selection, region: Some(self.region), seed: self.seed, method: self.method }
     }
 
     /// Whether its values are Hounsfield units, as far as that can be known.

@@ -10,7 +10,7 @@ use crate::io::ScanWarning;
 use crate::language::Key;
 use crate::mesh::TriMesh;
 use crate::mesh::shapes::icosphere;
-use crate::volume::{Axis, Label, Region, Selection, Survey};
+use crate::volume::{Axis, Cut, Label, Region, Selection, Survey};
 
 /// A line whose other end is the test.
 #[derive(Default)]
@@ -89,7 +89,8 @@ fn a_scan_begins_with_arteries_and_asks_for_a_preview_at_a_time() {
     assert_eq!(scans.shown().unwrap().selection, Selection::Threshold(180.0));
     scans.follow(&mut line);
     scans.follow(&mut line);
-    let Some(ScanCommand::Preview { generation, selection: Selection::Threshold(180.0), .. }) = line.sent.pop_front()
+    let Some(ScanCommand::Preview { generation, cut: Cut { selection: Selection::Threshold(180.0), .. }, .. }) =
+        line.sent.pop_front()
     else {
         panic!("a preview is asked for")
     };
@@ -105,7 +106,10 @@ fn a_scan_begins_with_arteries_and_asks_for_a_preview_at_a_time() {
     scans.receive(ScanEvent::Preview { generation, step: 2, mesh: mesh() }, &mut line);
     scans.follow(&mut line);
     let next = line.sent.pop_front();
-    assert!(matches!(next, Some(ScanCommand::Preview { selection: Selection::Threshold(220.0), .. })), "{next:?}");
+    assert!(
+        matches!(next, Some(ScanCommand::Preview { cut: Cut { selection: Selection::Threshold(220.0), .. }, .. })),
+        "{next:?}"
+    );
     assert_eq!(scans.shown().unwrap().preview.as_ref().unwrap().1, 2);
 }
 
@@ -129,14 +133,14 @@ fn the_surface_is_opened_and_the_scan_left() {
     let region = Region { first: [1, 2, 3], last: [8, 9, 9] };
     scans.act(Action::Bound(region), &mut line);
     scans.act(Action::Make, &mut line);
-    let Some(ScanCommand::Surface { generation, region: Some(asked), .. }) = line.sent.pop_front() else {
+    let Some(ScanCommand::Surface { generation, cut: Cut { region: Some(asked), .. } }) = line.sent.pop_front() else {
         panic!("a surface is asked for")
     };
     assert_eq!(asked, region);
     // While it is made no preview takes its place.
     scans.follow(&mut line);
     assert!(line.sent.iter().all(|command| matches!(command, ScanCommand::Slice { .. })));
-    let told = scans.receive(ScanEvent::Surface { generation, mesh: mesh() }, &mut line);
+    let told = scans.receive(ScanEvent::Surface { generation, mesh: mesh(), shifts_mm: None }, &mut line);
     let expected = Source::Made {
         name: "head".to_owned(),
         format: "NIfTI".to_owned(),
@@ -144,7 +148,7 @@ fn the_surface_is_opened_and_the_scan_left() {
         axes: crate::io::Axes::Unknown,
         warnings: vec![ScanWarning::Silent { format: "NIfTI".to_owned() }.into()],
     };
-    assert_eq!((told, scans.is_open()), (Some(Told::Made(expected)), false));
+    assert_eq!((told, scans.is_open()), (Some(Told::Made(expected, None)), false));
 }
 
 #[test]
@@ -180,7 +184,9 @@ fn a_scan_is_kept_for_its_slices_until_another_surface_is_open() {
     let (mut scans, mut line) = scan();
     scans.act(Action::Make, &mut line);
     let Some(ScanCommand::Surface { generation, .. }) = line.sent.pop_front() else { panic!("a surface is asked for") };
-    let Some(Told::Made(source)) = scans.receive(ScanEvent::Surface { generation, mesh: mesh() }, &mut line) else {
+    let Some(Told::Made(source, _)) =
+        scans.receive(ScanEvent::Surface { generation, mesh: mesh(), shifts_mm: None }, &mut line)
+    else {
         panic!("it is opened")
     };
     scans.surface_opened(Some(&source), &mut line);
@@ -229,7 +235,9 @@ fn planes_are_called_after_the_patients_that_they_are_nearest_to() {
         scans.receive(ScanEvent::Opened(Box::new(OpenedScan { directions, axes, ..*facts })), &mut line);
         scans.act(Action::Make, &mut line);
         let Some(ScanCommand::Surface { generation, .. }) = line.sent.pop_back() else { panic!("it is made") };
-        let Some(Told::Made(source)) = scans.receive(ScanEvent::Surface { generation, mesh: mesh() }, &mut line) else {
+        let Some(Told::Made(source, _)) =
+            scans.receive(ScanEvent::Surface { generation, mesh: mesh(), shifts_mm: None }, &mut line)
+        else {
             panic!("it is opened")
         };
         assert_eq!(scans.kept(Some(&source)).unwrap().names.map(Key::say), names);

@@ -45,12 +45,19 @@ impl ScanView {
     }
 
     /// Shows both views in what is left of `ui`.
-    pub(super) fn show(&mut self, ui: &mut Ui, scan: &OpenScan, views: &mut Views, is_narrow: bool) {
+    /// The voxel that was clicked at, if one was.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        scan: &OpenScan,
+        views: &mut Views,
+        is_narrow: bool,
+    ) -> Option<[usize; 3]> {
         let area = ui.available_rect_before_wrap();
         let (first, second) =
             if is_narrow { area.split_top_bottom_at_fraction(0.5) } else { area.split_left_right_at_fraction(0.5) };
         self.preview(ui, first.shrink(0.5), scan, views);
-        self.slice(ui, second.shrink(0.5), scan);
+        self.slice(ui, second.shrink(0.5), scan)
     }
 
     fn preview(&mut self, ui: &mut Ui, rect: Rect, scan: &OpenScan, views: &mut Views) {
@@ -107,11 +114,12 @@ impl ScanView {
         overlay::show(ui, rect, &writing);
     }
 
-    fn slice(&mut self, ui: &mut Ui, rect: Rect, scan: &OpenScan) {
-        let response = ui.allocate_rect(rect, Sense::hover());
+    fn slice(&mut self, ui: &mut Ui, rect: Rect, scan: &OpenScan) -> Option<[usize; 3]> {
+        let response = ui.allocate_rect(rect, Sense::click());
         name(&response, Role::Image, &say!("scan-slice-view"));
         ui.painter_at(rect).rect_filled(rect, 0.0, Color32::BLACK);
-        let Some(picture) = &scan.picture else { return };
+        let picture = scan.picture.as_ref()?;
+        let mut clicked = None;
         if self.slice.as_ref().is_none_or(|(shown, _)| shown != picture) {
             let most = ui.input(|input| input.max_texture_side);
             let (size, pixels) = thinned(picture, most);
@@ -137,6 +145,27 @@ impl ScanView {
             }
             let whole = Rect::from_min_max(pos2(1.0 - right, 1.0 - bottom), pos2(right, bottom));
             ui.painter_at(rect).image(texture.id(), place, whole, Color32::WHITE);
+            let (axis, index) = picture.slice;
+            // The part of the way over the picture, and the voxel there.
+            let turned = |part: f32, end: f32| if end > 0.0 { part } else { 1.0 - part };
+            if let Some(at) = response.interact_pointer_pos().filter(|&at| response.clicked() && place.contains(at)) {
+                let parts = (at - place.min) / place.size();
+                let mut voxel = [index; 3];
+                for (axis, part, pixels) in [
+                    (across, turned(parts.x, right), picture.size[0]),
+                    (down, turned(parts.y, bottom), picture.size[1]),
+                ] {
+                    voxel[axis] = ((part * pixels as f32) as usize).min(pixels.saturating_sub(1));
+                }
+                clicked = Some(voxel);
+            }
+            if let Some(seed) = scan.seed.filter(|seed| seed[axis.index()] == index) {
+                let part = |axis: usize, pixels: usize| (seed[axis] as f32 + 0.5) / pixels as f32;
+                let [x, y] =
+                    [turned(part(across, picture.size[0]), right), turned(part(down, picture.size[1]), bottom)];
+                let stroke = egui::Stroke::new(1.5, ui.visuals().hyperlink_color);
+                ui.painter_at(rect).circle_stroke(place.min + place.size() * vec2(x, y), 5.0, stroke);
+            }
             let font = egui::FontId::proportional(13.0);
             for (at, align, towards) in [
                 (rect.left_center(), Align2::LEFT_CENTER, to_the_right.map(|x| -x)),
@@ -171,6 +200,7 @@ impl ScanView {
             let place = corner.right_bottom();
             halo::text(&ui.painter_at(rect), place, Align2::RIGHT_BOTTOM, &words, font, Color32::LIGHT_GRAY);
         }
+        clicked
     }
 }
 

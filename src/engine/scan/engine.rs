@@ -13,7 +13,8 @@ use crate::mesh::TriMesh;
 use crate::say;
 use crate::task::{Budget, Progress, Running};
 use crate::volume::{
-    Grid, Region, Selection, Survey, VolumeError, preview_step, reduced_in_slices, region_of, slice, surface_in_slices,
+    Cut, Grid, Region, Selection, Survey, VolumeError, half_way, preview_step, reduced_in_slices, region_of, shifts_mm,
+    slice, surface_in_slices,
 };
 
 /// A volume and surfaces of it, as a machine of commands and events.
@@ -50,24 +51,25 @@ enum Job {
     Surface {
         work: Surfacing,
         generation: u64,
+        cut: Cut,
     },
 }
 
 /// A surface that is being made.
 type Surfacing = Running<'static, Result<TriMesh, VolumeError>>;
 
-/// Begins with the surface of a selection.
-fn surfacing(grid: &Arc<Grid>, selection: Selection, region: Option<Region>) -> Result<Surfacing, VolumeError> {
-    let (grid, region) = (Arc::clone(grid), region_of(grid, region)?);
-    Ok(Running::new(move |yielder| async move { surface_in_slices(&grid, selection, region, &yielder).await }))
+/// Begins with the surface of a cut.
+fn surfacing(grid: &Arc<Grid>, cut: Cut) -> Result<Surfacing, VolumeError> {
+    region_of(grid, cut.region)?;
+    let grid = Arc::clone(grid);
+    Ok(Running::new(move |yielder| async move { surface_in_slices(&grid, cut, &yielder).await }))
 }
 
 /// A preview that is asked for.
 #[derive(Clone, Copy)]
 struct Wanted {
     generation: u64,
-    selection: Selection,
-    region: Option<Region>,
+    cut: Cut,
 }
 
 impl ScanEngine {
@@ -121,10 +123,10 @@ impl ScanEngine {
         }
     }
 
-    fn begin_surface(&mut self, generation: u64, selection: Selection, region: Option<Region>) {
+    fn begin_surface(&mut self, generation: u64, cut: Cut) {
         let Some(current) = self.current(generation) else { return };
-        match selection.check(&current.survey).and_then(|()| surfacing(&current.grid, selection, region)) {
-            Ok(work) => current.job = Some(Job::Surface { work, generation }),
+        match cut.selection.check(&current.survey).and_then(|()| surfacing(&current.grid, cut)) {
+            Ok(work) => current.job = Some(Job::Surface { work, generation, cut }),
             Err(error) => self.refuse(generation, tell(&error)),
         }
     }
@@ -179,8 +181,9 @@ impl ScanEngine {
             (Job::Preview { generation, step, .. }, Made::Surface(Ok(mesh))) => {
                 self.events.push_back(ScanEvent::Preview { generation, step, mesh: Arc::new(mesh) });
             }
-            (Job::Surface { generation, .. }, Made::Surface(Ok(mesh))) => {
-                self.events.push_back(ScanEvent::Surface { generation, mesh: Arc::new(mesh) });
+            (Job::Surface { generation, cut, .. }, Made::Surface(Ok(mesh))) => {
+                let shifts_mm = shifts_mm(&current.grid, &mesh, cut.selection);
+                self.events.push_back(ScanEvent::Surface { generation, mesh: Arc::new(mesh), shifts_mm });
             }
             (Job::Preview { generation, .. } | Job::Surface { generation, .. }, Made::Surface(Err(error))) => {
                 self.refuse(generation, tell(&error));
@@ -234,15 +237,16 @@ impl Current {
     /// Begins a preview, or the copy that it takes.
     fn begin_preview(&mut self, wanted: Wanted, step: Option<usize>) -> Result<(), VolumeError> {
         let step = step.unwrap_or_else(|| preview_step(self.grid.geometry().points())).max(1);
-        wanted.selection.check(&self.survey)?;
+        wanted.cut.selection.check(&self.survey)?;
         match &self.reduced {
             Some((known, grid)) if *known == step => {
-                let region = wanted.region.map(|Region { first, last }| Region {
+                let region = wanted.cut.region.map(|Region { first, last }| Region {
                     first: first.map(|first| first / step),
                     // A thin box holds two of the coarser points at least.
                     last: std::array::from_fn(|axis| last[axis].div_ceil(step).max(first[axis] / step + 1)),
                 });
-                let work = surfacing(grid, wanted.selection, region)?;
+                let seed = wanted.cut.seed.map(|seed| seed.map(|along| along / step));
+                let work = surfacing(grid, Cut { region, seed, ..wanted.cut })?;
                 self.job = Some(Job::Preview { work, generation: wanted.generation, step });
             }
             _ => match &mut self.job {
@@ -265,7 +269,7 @@ impl Machine for ScanEngine {
     type Command = ScanCommand;
     type Event = ScanEvent;
 
-    /// Takes a command. Nothing long happens here but a slice's picture, a few milliseconds.
+    /// Takes a command. Nothing long happens here but a slice's picture or the rays from a seed, a few milliseconds.
     fn handle(&mut self, command: ScanCommand) {
         match command {
             ScanCommand::Open { id, files, volume } => {
@@ -275,10 +279,12 @@ impl Machine for ScanEngine {
                 }
                 self.opening = Some(opening);
             }
-            ScanCommand::Preview { generation, selection, region, step } => {
-                self.begin_preview(Wanted { generation, selection, region }, step);
+            ScanCommand::Preview { generation, cut, step } => self.begin_preview(Wanted { generation, cut }, step),
+            ScanCommand::Surface { generation, cut } => self.begin_surface(generation, cut),
+            ScanCommand::HalfWay { seed } => {
+                let found = self.current.as_ref().and_then(|current| half_way(&current.grid, seed));
+                self.events.push_back(ScanEvent::HalfWay { seed, found });
             }
-            ScanCommand::Surface { generation, selection, region } => self.begin_surface(generation, selection, region),
             ScanCommand::Slice { axis, index, window } => self.picture(axis, index, window),
             ScanCommand::Close => (self.opening, self.current) = (None, None),
             ScanCommand::Cancel => {

@@ -9,7 +9,7 @@ use super::super::surfaces::surface;
 use crate::io::{Axes, Offer, Warning};
 use crate::mesh::TriMesh;
 use crate::transfer::bulk;
-use crate::volume::{Axis, Region, Selection, Survey};
+use crate::volume::{Axis, Cut, HalfWay, Selection, Survey};
 
 /// The app's end of the line to the engine.
 pub type ScanLink = dyn Link<ScanCommand, ScanEvent>;
@@ -60,10 +60,8 @@ pub enum ScanCommand {
     Preview {
         /// Comes back with the answer; each command's is larger than the one before.
         generation: u64,
-        /// What lies inside.
-        selection: Selection,
-        /// Only here, in voxels of the volume as it was opened.
-        region: Option<Region>,
+        /// Of what, in voxels of the volume as it was opened.
+        cut: Cut,
         /// Every how many voxels one is looked at; `None` for as few as a preview can take.
         step: Option<usize>,
     },
@@ -71,10 +69,13 @@ pub enum ScanCommand {
     Surface {
         /// Comes back with the answer.
         generation: u64,
-        /// What lies inside.
-        selection: Selection,
-        /// Only here.
-        region: Option<Region>,
+        /// Of what.
+        cut: Cut,
+    },
+    /// Look for the threshold around a seed.
+    HalfWay {
+        /// A voxel of the volume, from 0.
+        seed: [usize; 3],
     },
     /// Make a picture of a slice.
     Slice {
@@ -170,6 +171,15 @@ pub enum ScanEvent {
         /// In mm, counter-clockwise seen from outside, not welded.
         #[serde(with = "surface")]
         mesh: Arc<TriMesh>,
+        /// By how many mm it would move outwards at a threshold 10 % lower and 10 % higher; none of a mask.
+        shifts_mm: Option<[f64; 2]>,
+    },
+    /// The threshold around a seed; `None` where no edge was found.
+    HalfWay {
+        /// That of the command.
+        seed: [usize; 3],
+        /// Between which values it is half way.
+        found: Option<HalfWay>,
     },
     /// A picture of a slice.
     Slice {

@@ -4,7 +4,7 @@ use super::super::machine::Machine;
 use super::*;
 use crate::mesh::Topology;
 use crate::transfer::sent;
-use crate::volume::{Axis, Region, Selection};
+use crate::volume::{Axis, Cut, Region, Selection};
 
 const RADIUS: f32 = 12.0;
 
@@ -35,11 +35,11 @@ fn run(engine: &mut ScanEngine, command: ScanCommand) -> Vec<ScanEvent> {
 }
 
 fn surface(selection: Selection) -> ScanCommand {
-    ScanCommand::Surface { generation: 2, selection, region: None }
+    ScanCommand::Surface { generation: 2, cut: Cut::new(selection) }
 }
 
 fn preview(selection: Selection, step: Option<usize>, region: Option<Region>) -> ScanCommand {
-    ScanCommand::Preview { generation: 3, selection, region, step }
+    ScanCommand::Preview { generation: 3, cut: Cut { region, ..Cut::new(selection) }, step }
 }
 
 #[test]
@@ -48,7 +48,8 @@ fn a_scan_is_opened_previewed_and_cut() {
     let [ScanEvent::Opened(opened)] = &run(&mut engine, ball(false))[..] else { panic!("it opens") };
     assert_eq!((opened.id, opened.dimensions, opened.format.as_str()), (7, [64; 3], "MetaImage"));
     assert_eq!((opened.survey.histogram.iter().sum::<u64>(), opened.proposed), (64 * 64 * 64, None));
-    let [ScanEvent::Surface { generation: 2, mesh }] = &run(&mut engine, surface(Selection::Threshold(100.0)))[..]
+    let [ScanEvent::Surface { generation: 2, mesh, shifts_mm: Some(_) }] =
+        &run(&mut engine, surface(Selection::Threshold(100.0)))[..]
     else {
         panic!("it is cut")
     };

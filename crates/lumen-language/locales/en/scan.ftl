@@ -35,6 +35,20 @@ scan-vessel-label = Label of the vessel
 scan-label = Label { $label }
 scan-label-named = Label { $label }: { $name }
 scan-all-labels = All labels
+# The voxel that the vessel is connected to; a click in the slice sets it.
+scan-seed = Seed
+scan-seed-help = Only what is connected to this voxel becomes the surface
+scan-seed-remove = Remove
+scan-seed-click = Click the vessel in the slice: only what is connected to it becomes the surface.
+# Where the threshold lies that was found around the seed. $unit is empty, or a space and "HU".
+scan-half-way = The threshold is half way between the vessel ({ $vessel }{ $unit }) and what is around it ({ $around }{ $unit }).
+# How the surface of a mask is made.
+scan-method = Surface by
+scan-method-help = Marching cubes keep the steps of the voxels for smoothing to remove; surface nets relax them within each voxel, which narrows thin vessels
+scan-surface-nets = Surface nets
+scan-marching-cubes = Marching cubes
+# By how many mm the wall would move outwards, with a sign where inwards.
+scan-shifts = With a threshold 10 % lower the wall would lie { $lower } mm farther out, with one 10 % higher { $higher } mm.
 # The part of the scan that is looked at.
 scan-box = Box
 scan-box-help = Only these voxels are looked at: what lies outside, such as bone, is left out
