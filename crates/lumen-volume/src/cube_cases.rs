@@ -65,11 +65,11 @@ impl CubeLoops {
     pub(crate) fn new() -> Self {
         let mut of_edge = vec![[0; EDGES]; 256];
         let mut middles = vec![vec![Vec3::splat(0.5)]];
-        for case in 1..256 {
+        for (case, of_edge) in of_edge.iter_mut().enumerate().skip(1) {
             let loops = loops(case as u8);
             for (n, edges) in loops.iter().enumerate() {
                 for &edge in edges {
-                    of_edge[case][edge] = n as u8;
+                    of_edge[edge] = n as u8;
                 }
             }
             let middle = |edges: &Vec<usize>| {
