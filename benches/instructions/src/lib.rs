@@ -1,4 +1,4 @@
-//! What is counted, as a WebAssembly module: `main.rs` calls [`begin`] for each of the cases, then [`advance`] until nothing
+//! What is counted, as a WebAssembly module: `main.rs` calls `begin` for each of the cases, then `advance` until nothing
 //! is left, and counts the instructions of each call.
 
 #![cfg(target_arch = "wasm32")]
