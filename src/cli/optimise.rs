@@ -127,7 +127,7 @@ impl Optimise {
         }
         if self.scan.is_any() {
             return Err(misuse(
-                "--threshold, --label, --seed, --method and --box are for one scan: say a file for its surface with -o",
+                "--threshold, --label, --seed, --surface-by and --box are for one scan: say a file for its surface with -o",
             ));
         }
         if asked.wants_safe && self.save_settings.is_some() {

@@ -117,9 +117,9 @@ impl Opened {
         };
         let threshold = options.threshold.or(found.map(|found| found.threshold));
         let selection = Selection::choose(&self.survey, threshold, options.label)?;
-        let method = match options.method {
+        let method = match options.surface_by {
             Some(SurfaceMethod::Nets) if matches!(selection, Selection::Threshold(_)) => {
-                return Err(misuse("--method nets is for masks: a threshold lies between voxels"));
+                return Err(misuse("--surface-by nets is for masks: a threshold lies between voxels"));
             }
             Some(SurfaceMethod::Nets) => Method::SurfaceNets,
             Some(SurfaceMethod::Cubes) | None => Method::MarchingCubes,

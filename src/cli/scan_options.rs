@@ -22,7 +22,7 @@ pub(super) struct ScanOptions {
     pub(super) seed: Option<DVec3>,
     /// Of a mask: how the surface is made
     #[arg(long, value_enum, value_name = "METHOD")]
-    pub(super) method: Option<SurfaceMethod>,
+    pub(super) surface_by: Option<SurfaceMethod>,
     /// Of files that hold several volumes: this one, from 1; without it, the one of most slices
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) volume: Option<u32>,
@@ -34,7 +34,7 @@ pub(super) struct ScanOptions {
 /// How the surface of a mask is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum SurfaceMethod {
-    /// Marching cubes: the steps of the voxels stay (this is what is done without --method)
+    /// Marching cubes: the steps of the voxels stay (this is what is done without --surface-by)
     Cubes,
     /// Surface nets: relaxed within each voxel; `lumen surface` without --label makes the borders of all labels
     Nets,
@@ -61,7 +61,7 @@ fn region(text: &str) -> Result<Region, String> {
 impl ScanOptions {
     /// Whether anything is asked for that only a volume has.
     pub(super) fn is_any(&self) -> bool {
-        self.is_chosen() || self.region.is_some() || self.volume.is_some() || self.method.is_some()
+        self.is_chosen() || self.region.is_some() || self.volume.is_some() || self.surface_by.is_some()
     }
 
     /// Whether a part of the volume is asked for.
@@ -78,7 +78,7 @@ impl ScanOptions {
     pub(super) fn refuse(&self, name: &str) -> Result<()> {
         if self.is_any() {
             return Err(misuse(format!(
-                "{name} is a surface: --threshold, --label, --seed, --method, --volume and --box are for scans and masks"
+                "{name} is a surface: --threshold, --label, --seed, --surface-by, --volume and --box are for scans and masks"
             )));
         }
         Ok(())
