@@ -68,6 +68,39 @@ fn a_scan_is_cut_at_a_threshold_within_a_box() {
 }
 
 #[test]
+fn a_mask_is_relaxed_by_surface_nets_around_a_seed() {
+    let folder = Folder::new("nets");
+    let (mask, out) = (folder.file("mask.mha"), folder.file("out.vtp"));
+    std::fs::write(&mask, ball(Some(3))).unwrap();
+    let nets = ["surface", &mask, "--surface-by", "nets", "-o", &out];
+    for arguments in [&nets[..], &[&nets[..], &["--seed", "5,-20,100"]].concat()] {
+        succeed(arguments);
+        let surface: Value = serde_json::from_str(&succeed(&["inspect", &out, "--json"])).unwrap();
+        assert_eq!((&surface["components"], &surface["boundary_edges"]), (&1.into(), &0.into()));
+        let ratio = surface["volume_mm3"].as_f64().unwrap() / (4.0 / 3.0 * std::f64::consts::PI * 1000.0);
+        assert!((0.95..1.01).contains(&ratio), "{ratio}");
+    }
+    // Outside of the ball nothing is connected.
+    assert_eq!(lumen(&[&nets[..], &["--seed", "-9,-20,100"]].concat()).status.code(), Some(1));
+    // The way of the reduction has the name --method.
+    succeed(&["optimise", &mask, "--surface-by", "nets", "--method", "quadric", "--reduction", "50", "-o", &out]);
+}
+
+#[test]
+fn how_far_another_threshold_moves_the_wall_is_told() {
+    let folder = Folder::new("shifts");
+    let (scan, out) = (folder.file("scan.mha"), folder.file("out.ply"));
+    std::fs::write(&scan, ball(None)).unwrap();
+    let said = succeed(&["surface", &scan, "--threshold", "100", "-o", &out]);
+    // 10 of 100, where values fall by 20 a mm: half a millimetre.
+    for (which, exact) in [("threshold 10 % lower", 0.5), ("threshold 10 % higher", -0.5)] {
+        let line = said.lines().find(|line| line.starts_with(which)).unwrap_or_else(|| panic!("{which}: {said}"));
+        let shift: f64 = line.split_whitespace().rev().nth(1).unwrap().parse().unwrap();
+        assert!((shift - exact).abs() < 0.02, "{line}");
+    }
+}
+
+#[test]
 fn what_is_strange_about_a_scan_is_said_once() {
     let folder = Folder::new("scan-warnings");
     let (scan, out) = (folder.file("scan.nrrd"), folder.file("out.ply"));
