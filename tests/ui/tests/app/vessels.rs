@@ -62,7 +62,7 @@ fn the_allowed_change_decides_the_verdict_and_is_a_step_to_undo() {
     harness.event(egui::Event::Text("0.1".to_owned()));
     harness.run_steps(1);
     harness.key_press(Key::Enter);
-    settle(&mut harness);
+    harness.run_steps(3);
     let after = calibre(&mut harness).found.unwrap();
     assert_eq!((after.tolerance_percent, after.verdict), (0.1, Verdict::Changed));
     assert!(says(&harness, "by more than 0.1 %"));
