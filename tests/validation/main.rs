@@ -9,6 +9,7 @@ mod bend;
 mod buckling;
 mod dynamics;
 mod elastica;
+mod facets;
 mod friction;
 mod helix;
 mod invariance;
