@@ -10,6 +10,7 @@ mod buckling;
 mod dynamics;
 mod elastica;
 mod facets;
+mod feed;
 mod friction;
 mod helix;
 mod invariance;
