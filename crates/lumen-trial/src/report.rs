@@ -49,11 +49,13 @@ pub struct StepReport {
 }
 
 impl StepReport {
-    /// Of two parts of a step: how far they went together, the forces at the end, and the worse of the kinds.
+    /// Of two parts of a step: how far they went together, the forces at the end, and the worse of the kinds. A step in which
+    /// the guide waits for one part alone is braked.
     #[must_use]
     pub(super) fn followed_by(&self, next: &Self) -> Self {
+        let (better, worse) = (self.kind.min(next.kind), self.kind.max(next.kind));
         Self {
-            kind: self.kind.max(next.kind),
+            kind: if worse < StepKind::Waited { worse } else { better.max(StepKind::Braked) },
             wanted_mm: self.wanted_mm + next.wanted_mm,
             fed_mm: self.fed_mm + next.fed_mm,
             wanted_rad: self.wanted_rad + next.wanted_rad,
