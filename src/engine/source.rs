@@ -62,6 +62,11 @@ impl Source {
         }
     }
 
+    /// Whether both are one file, in whatever units it is read.
+    pub fn is_same_file(&self, other: &Self) -> bool {
+        matches!((self, other), (Self::File { bytes, .. }, Self::File { bytes: of, .. }) if Arc::ptr_eq(bytes, of))
+    }
+
     /// What the surface is called, whatever is spoken: files are named by it.
     pub fn name(&self) -> &str {
         match self {

@@ -203,8 +203,8 @@ impl LumenApp {
             Action::Axes(axes) => self.recovery.choose_axes(state, axes),
             Action::SaveAxes(axes) => state.written_axes = axes,
             Action::Set(settings) => state.settings = *settings,
-            Action::Undo => state.undo(),
-            Action::Redo => state.redo(),
+            Action::Undo => state.undo(self.platform.link()),
+            Action::Redo => state.redo(self.platform.link()),
             Action::Cancel => {
                 let effect = state.cancel(self.platform.link());
                 self.take_effect(effect, ctx);

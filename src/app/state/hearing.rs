@@ -154,7 +154,7 @@ impl State {
             document.show(settings.target);
         }
         self.settings = settings.clone();
-        self.history.replace(&Step { settings: settings.clone(), measures: self.measures.clone() });
+        self.history.replace(&Step { measures: self.measures.clone(), ..Step::of(&settings, self.asked_unit()) });
         self.sent = settings;
     }
 }

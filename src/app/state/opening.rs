@@ -49,6 +49,16 @@ impl State {
         }
     }
 
+    /// The unit that was chosen for the open file, also where it is still being read in it.
+    pub fn asked_unit(&self) -> Option<Unit> {
+        let open = &self.document.as_ref()?.source;
+        let again = self.opening.last().map(|opening| &opening.source).filter(|source| source.is_same_file(open));
+        match again.unwrap_or(open) {
+            Source::File { options, .. } => options.unit,
+            Source::Sample { .. } | Source::Made { .. } => None,
+        }
+    }
+
     /// The name of the surface that is being read.
     pub fn opening(&self) -> Option<Cow<'_, str>> {
         self.opening.last().map(|opening| opening.source.label())
@@ -76,7 +86,9 @@ impl State {
     /// A surface that is read takes the place of the one that is open.
     fn arrive(&mut self, document: Document, settings: Settings) {
         let keep = self.settings.keep;
-        let before = self.document.take();
+        let is_same = self.document.as_ref().is_some_and(|before| before.source.is_same_file(&document.source));
+        let before = self.document.replace(document);
+        let unit = self.asked_unit();
         // Of two that follow each other the one that had a level can be gone back to.
         if self.before.is_none() {
             let (measures, history) = (self.measures.clone(), self.history.clone());
@@ -89,17 +101,21 @@ impl State {
         self.history.change_all(|step| {
             step.settings.keep = Keep::Largest;
             step.measures = Arc::default();
+            // Read in another unit it is another step; another file has its own.
+            if !is_same {
+                step.unit = unit;
+            }
         });
-        self.generation = document.revision.document;
         self.is_stopped = false;
         // What was moved meanwhile follows.
         self.sent = settings;
         self.is_cancelling = false;
-        if let Some(warning) = document.import.warnings.first() {
-            self.tell(&tell(warning));
-        }
         self.shows_averaged = false;
-        self.document = Some(document);
+        let Some(document) = &self.document else { return };
+        self.generation = document.revision.document;
+        if let Some(warning) = document.import.warnings.first().map(|warning| tell(warning)) {
+            self.tell(&warning);
+        }
     }
 
     /// Gives up the surface that has no level yet: what was open before it is again. Says what to tell the others.
