@@ -148,7 +148,7 @@ pub struct Run {
     strongest: [f64; 2],
     /// What the wall has felt, in the order in which it was told.
     pub(super) felt: Vec<Touch>,
-    /// The largest forces.
+    /// The largest forces, of the runs before on the same surface too.
     pub(super) peaks: Largest,
     /// What came of it, once it is over.
     pub summary: Option<Summary>,
@@ -251,7 +251,7 @@ impl Trial {
         self.run()?.frame.as_ref()
     }
 
-    /// The largest forces of what is shown.
+    /// The largest forces on the surface that is shown.
     pub(super) fn peaks(&self) -> Largest {
         self.run().map(|run| run.peaks).unwrap_or_default()
     }
@@ -391,20 +391,21 @@ impl Session {
 }
 
 impl Run {
-    /// One that nothing is known of yet.
-    pub(super) fn new(id: u64) -> Self {
-        Self { id, ..Self::default() }
+    /// One that nothing is known of yet. On the surface of the one before, bars and colours keep their scale: what is weaker
+    /// looks weaker.
+    pub(super) fn new(id: u64, before: Option<&Self>) -> Self {
+        Self { id, peaks: before.map(|before| before.peaks).unwrap_or_default(), ..Self::default() }
     }
 
     /// From the entry: the wire is shown there until more is told.
     pub(super) fn from_entry(session: &Session, id: u64) -> Self {
-        Self { frame: session.at_entry.clone(), ..Self::new(id) }
+        Self { frame: session.at_entry.clone(), ..Self::new(id, Some(&session.run)) }
     }
 
     /// From a second before, standing still. What was felt up to there is told again.
     pub(super) fn stepped_back(&self, id: u64) -> Self {
         let (autopilot, frame) = (self.autopilot, self.frame.clone());
-        Self { autopilot, frame, is_paused: true, ..Self::new(id) }
+        Self { autopilot, frame, is_paused: true, ..Self::new(id, None) }
     }
 
     /// Differs wherever the wire may lie otherwise, in this run or another.

@@ -150,6 +150,19 @@ fn the_fluoroscopy_is_the_large_picture_on_demand_with_the_others_over_it() {
     assert!(views(&harness) == beside && harness.state().trial().is_open() && asked(&memory).is_empty());
 }
 
+/// Two runs are compared by eye: the weaker one fills less of its bar.
+#[test]
+fn the_scale_of_forces_stays_from_run_to_run() {
+    let (mut harness, memory) = on(DESKTOP);
+    let felt = |id, force| TrialEvent::Felt { id, touches: vec![Touch { at: [0.0; 3], triangle: 0, force }] };
+    tell(&mut harness, &memory, [felt(FIRST, 0.9), now(FIRST, Frame { step: 900, ..frame() })]);
+    assert!(says(&harness, "Wall force, up to 1 N"));
+    retarget(&mut harness);
+    let id = id_of_start(&asked(&memory));
+    tell(&mut harness, &memory, [ready(id), now(id, frame())]);
+    assert!(says(&harness, "Wall force, up to 1 N"), "0.35 N of it");
+}
+
 #[test]
 fn a_step_back_forgets_what_the_wall_has_felt_since() {
     let (mut harness, memory) = on(DESKTOP);
