@@ -83,7 +83,8 @@ fn scale(state: &State) -> response::Scale {
     let document = state.document.as_ref();
     let response = measured(document).and_then(|report| report.smoothing_response);
     let calibre = document.and_then(|document| document.calibre.as_ref()?.found.as_ref().ok());
-    let radii = calibre.iter().flat_map(|calibre| &calibre.branches).filter_map(|branch| branch.opened.inscribed_radius_mm);
+    let radii =
+        calibre.iter().flat_map(|calibre| &calibre.branches).filter_map(|branch| branch.opened.inscribed_radius_mm);
     response::Scale {
         edge_length: response.map(|response| response.edge_length_mm),
         thinnest: radii.map(|radius| 2.0 * radius.least).reduce(f64::min),

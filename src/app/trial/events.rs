@@ -95,7 +95,8 @@ impl Trial {
             }
         }
         let before = preparing.before.as_deref();
-        let before = before.filter(|before| before.subject.of.document == subject.of.document).map(|before| &before.run);
+        let before =
+            before.filter(|before| before.subject.of.document == subject.of.document).map(|before| &before.run);
         let run = Run::new(id, before);
         let session = Box::new(Session { subject, ready, at_entry: None, run });
         let log = if preparing.coming.is_empty() {

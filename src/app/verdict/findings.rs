@@ -46,7 +46,8 @@ fn safe_percent(state: &State, document: &Document) -> Option<f64> {
     let percent = state.safe()?.percent?;
     let entering = document.levels.as_ref()?.1.triangles.len();
     let shown = document.shown.as_ref()?.level.triangles.len();
-    (shown < rate(percent).triangles(entering)).then_some(percent)
+    // A level may have one triangle fewer than its rate.
+    (shown + 1 < rate(percent).triangles(entering)).then_some(percent)
 }
 
 /// What goes to the place of a finding.

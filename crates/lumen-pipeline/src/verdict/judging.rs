@@ -110,7 +110,8 @@ impl Verdict {
             Err(why) => Err(why.clone()),
         });
         let entering = report.after_connectivity.triangles;
-        let takes_more = |percent: &f64| report.output.triangles < rate(*percent).triangles(entering);
+        // A level may have one triangle fewer than its rate.
+        let takes_more = |percent: &f64| report.output.triangles + 1 < rate(*percent).triangles(entering);
         // A coarser level may open a vessel again.
         let is_open = report.narrowing.is_some_and(|found| found.pinched_places == 0);
         let pinch = report.pinch.as_ref().filter(|pinch| !is_open && report.output.triangles <= pinch.triangles);

@@ -8,7 +8,7 @@ use lumen::engine::trial::{TrialCommand, TrialEvent};
 use lumen::trial::frame::{Frame, Touch};
 use lumen::trial::setup::Input;
 use lumen_ui_tests::told::{
-    App, DESKTOP, FIRST, PHONE, asked, at_entry, frame, id_of_start, now, on, press, ready, says, start, tell,
+    App, DESKTOP, FIRST, PHONE, asked, at_entry, frame, id_of_start, now, on, press, ready, retarget, says, start, tell,
 };
 use lumen_ui_tests::{app, drag, settle};
 
