@@ -256,6 +256,9 @@ fn of_report(known: &Known<'_>, report: &Report) -> Vec<Finding> {
     if report.pass_band_missed {
         findings.push(Finding::note(FindingKind::FewIterations));
     }
+    if report.settings.smoothing.iterations == 0 {
+        findings.push(Finding::note(FindingKind::NotSmoothed).helped_by(suit(known)));
+    }
     findings.extend(report.volume_held_warning().map(Finding::note));
     findings
 }
