@@ -24,6 +24,7 @@ use crate::pipeline::verdict::Verdict;
 use crate::sharing::{SharedSettings, write_settings};
 use crate::task::milliseconds;
 use crate::vessel::width::Narrowest;
+use lumen_message::signed;
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
 #[derive(Debug, Args)]
@@ -206,10 +207,10 @@ impl Optimise {
             row("deviation from original", format!("{:.4} mm mean, {:.4} mm max", deviation.mean, deviation.max));
         }
         if let Some(change) = report.volume_change_percent {
-            row("volume change", format!("{change:+.3} %"));
+            row("volume change", format!("{} %", signed(change, 3)));
         }
         if let Some(change) = report.area_change_percent {
-            row("area change", format!("{change:+.3} %"));
+            row("area change", format!("{} %", signed(change, 3)));
         }
         if let Some(shape) = &report.output_shape {
             shape_rows(shape);

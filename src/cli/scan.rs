@@ -17,6 +17,7 @@ use crate::volume::{
     Cut, Grid, HalfWay, Label, LabelledSurface, Method, PRESETS, Relaxation, Selection, Survey, VolumeError, half_way,
     shifts_mm, surface_in_slices, surface_nets, survey,
 };
+use lumen_message::signed;
 
 /// What is said of a folder without surfaces: it may be a scan.
 pub(super) const FOLDER_HINT: &str = "; for a folder of DICOM say --threshold or --label, and a file for the surface";
@@ -149,8 +150,8 @@ impl Opened {
             row("threshold", format!("{threshold:.1}, half way from {vessel:.1} to {background:.1}"));
         }
         if let Some([lower, higher]) = shifts_mm(&self.grid, mesh, cut.selection) {
-            row("threshold 10 % lower", format!("wall {lower:+.3} mm"));
-            row("threshold 10 % higher", format!("wall {higher:+.3} mm"));
+            row("threshold 10 % lower", format!("wall {} mm", signed(lower, 3)));
+            row("threshold 10 % higher", format!("wall {} mm", signed(higher, 3)));
         }
         Ok(())
     }

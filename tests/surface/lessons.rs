@@ -306,6 +306,22 @@ const CLAIMS: &[Claim] = &[
         }),
     },
     Claim {
+        at: ("pass-band", 3),
+        says: [
+            "branches 4 and 5, the renal arteries, and 1 and 7, the iliac arteries",
+            "Äste 4 und 5, der Nierenarterien, und 1 und 7, der Beckenarterien",
+            "branches 4 et 5, les artères rénales, et 1 et 7, les artères iliaques",
+        ],
+        truth: Holds(|seen| {
+            let mean =
+                |number: usize| seen.certificate().branches[number - 1].opened.radius_mm.map_or(0.0, |of| of.mean);
+            let found = [4, 5, 1, 7].map(mean);
+            let [renal, iliac] = [&found[..2], &found[2..]];
+            let is_so = renal.iter().all(|of| RENAL.contains(of)) && iliac.iter().all(|of| ILIAC.contains(of));
+            holds(is_so, found)
+        }),
+    },
+    Claim {
         at: ("windows", 0),
         says: ["from 100 % to nothing", "von 100 % auf nichts", "de 100 % à rien"],
         truth: Holds(|seen| {

@@ -119,7 +119,8 @@ lesson-pass-band-text =
     settings: pass-band=0.001 iterations=200 reduction=0 adapt=no guard=no
     view: anterior
     show: calibre
-    look: die Farben der dünnen Äste. Die Skala zeigt Prozent ihres Radius.
+    look: die Farben der Äste 4 und 5, der Nierenarterien, und 1 und 7, der Beckenarterien. Die Skala zeigt Prozent ihres
+      Radius.
 
 lesson-windows = Iterationen und Fenster
 lesson-windows-text =
@@ -259,15 +260,16 @@ lesson-wire-text =
     text: Der Autopilot schiebt und dreht den Draht, wie eine Hand es täte. Schubkraft ist die Kraft an der Hand, längs des Drahts.
     settings: reduction=90
     trial: autopilot
-    look: die Stellen, die hell werden, wo die Wand am meisten gespürt hat, und die Schubkraft in der Seitenleiste.
+    look: Wandkraft und Schubkraft in der Seitenleiste, und die Farbe der Wand, wo sie berührt wurde.
 
     step: Weniger Dreiecke
     text: Dasselbe mit einem von hundert Dreiecken. Jede Facette ist eine flache Stelle mit einer Kante zur nächsten.
     settings: reduction=99
     trial: autopilot
-    ask: Wo würden Sie mehr Kraft erwarten als zuvor?
-    answer: Wo der Draht über die Kante zwischen zwei großen Facetten gleitet. „Mit der unreduzierten Oberfläche vergleichen“ misst es,
-      gegen das Rauschen derselben Oberfläche mit ihren Dreiecken in anderer Reihenfolge.
+    look: die Balken; ihre Skala ist die des Schritts davor.
+    ask: Ist die Kraft auf die Wand eine andere als zuvor?
+    answer: Ein Lauf sagt das nicht: Schon eine andere Reihenfolge der Dreiecke ändert sie. „Mit der unreduzierten Oberfläche
+      vergleichen“ misst den Unterschied gegen dieses Rauschen.
 
 ## Das Glossar
 

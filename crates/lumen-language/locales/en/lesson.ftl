@@ -117,7 +117,8 @@ lesson-pass-band-text =
     settings: pass-band=0.001 iterations=200 reduction=0 adapt=no guard=no
     view: anterior
     show: calibre
-    look: the colours of the thin branches. The scale is in per cent of their radius.
+    look: the colours of branches 4 and 5, the renal arteries, and 1 and 7, the iliac arteries. The scale is in per cent of their
+      radius.
 
 lesson-windows = Iterations and windows
 lesson-windows-text =
@@ -253,15 +254,16 @@ lesson-wire-text =
     text: The autopilot feeds and rolls the wire as a hand would. Push is the force at the hand, along the wire.
     settings: reduction=90
     trial: autopilot
-    look: the places that turn bright, where the wall has felt most, and push in the panel.
+    look: Wall force and Push force in the panel, and the colour of the wall where it was touched.
 
     step: Fewer triangles
     text: The same with one triangle in a hundred. Each facet is a flat place with an edge to the next.
     settings: reduction=99
     trial: autopilot
-    ask: Where would you expect more force than before?
-    answer: Where the wire slides over the edge between two large facets. Compare with the unreduced surface measures it, against the
-      noise of the same surface with its triangles in another order.
+    look: the bars, whose scale is that of the step before.
+    ask: Is the force on the wall another one than before?
+    answer: One run does not tell: the order of the triangles alone changes it. Compare with the unreduced surface measures the
+      difference against that noise.
 
 ## The glossary
 

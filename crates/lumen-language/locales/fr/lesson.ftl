@@ -119,7 +119,8 @@ lesson-pass-band-text =
     settings: pass-band=0.001 iterations=200 reduction=0 adapt=no guard=no
     view: anterior
     show: calibre
-    look: les couleurs des branches fines. L'échelle est en pour cent de leur rayon.
+    look: les couleurs des branches 4 et 5, les artères rénales, et 1 et 7, les artères iliaques. L'échelle est en pour cent de
+      leur rayon.
 
 lesson-windows = Itérations et fenêtres
 lesson-windows-text =
@@ -259,15 +260,16 @@ lesson-wire-text =
     text: L'autopilote avance et tourne le guide comme le ferait une main. La poussée est la force à la main, le long du guide.
     settings: reduction=90
     trial: autopilot
-    look: les endroits qui s'éclairent, où la paroi a senti le plus, et la poussée dans le panneau.
+    look: Force paroi et Poussée dans le panneau, et la couleur de la paroi là où elle a été touchée.
 
     step: Moins de triangles
     text: La même chose avec un triangle sur cent. Chaque facette est un endroit plat avec une arête vers la suivante.
     settings: reduction=99
     trial: autopilot
-    ask: Où attendriez-vous plus de force qu'avant ?
-    answer: Là où le guide glisse sur l'arête entre deux grandes facettes. « Comparer à la surface non réduite » le mesure, face
-      au bruit de la même surface avec ses triangles dans un autre ordre.
+    look: les barres, dont l'échelle est celle de l'étape d'avant.
+    ask: La force sur la paroi est-elle une autre qu'avant ?
+    answer: Un seul essai ne le dit pas : un autre ordre des triangles suffit à la changer. « Comparer à la surface non
+      réduite » mesure la différence face à ce bruit.
 
 ## Le glossaire
 
