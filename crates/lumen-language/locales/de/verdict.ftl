@@ -21,8 +21,8 @@ verdict-stopped = Es wurde abgebrochen, oder die Berechnung ist abgestürzt: zum
 verdict-sample = Beispiel: { $text }
 verdict-what-to-do = Abhilfe
 verdict-findings = { $count ->
-    [one] { $count } Befund
-   *[other] { $count } Befunde
+    [one] Einzelheiten
+   *[other] Alle { $count }
 }
 verdict-list-grave = Zu prüfen
 verdict-list-notes = Hinweise

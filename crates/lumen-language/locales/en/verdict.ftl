@@ -17,8 +17,8 @@ verdict-choose-pieces = Choose pieces
 verdict-choose-pieces-help = Shows what is left out; a click on a piece keeps that one, with Shift or Ctrl besides the others
 # Opens the list of the findings; $count is 1 at least. The list has two parts, each with a title.
 verdict-findings = { $count ->
-    [one] { $count } finding
-   *[other] { $count } findings
+    [one] Details
+   *[other] All { $count }
 }
 verdict-list-grave = To look at
 verdict-list-notes = Notes

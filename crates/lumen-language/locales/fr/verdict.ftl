@@ -21,8 +21,8 @@ verdict-stopped = La mesure a été annulée, ou le calcul s'est arrêté : mod
 verdict-sample = Exemple : { $text }
 verdict-what-to-do = Que faire
 verdict-findings = { $count ->
-    [one] { $count } constat
-   *[other] { $count } constats
+    [one] Détails
+   *[other] Les { $count }
 }
 verdict-list-grave = À vérifier
 verdict-list-notes = Remarques
