@@ -42,8 +42,9 @@ pub(super) fn show(ui: &mut Ui, view: Rect, asked: &mut Vec<Action>) {
     let handle = grip(view, view.center().x).y;
     let lowest = view.bottom() - BELOW;
     let bottom = if lowest - size.y >= handle + HANDLE { lowest } else { lowest.min(handle - HANDLE) };
-    let card = if view.width() >= SCALE + size.x + MARGIN {
-        Rect::from_min_size(view.right_bottom() - size - vec2(MARGIN, MARGIN), size)
+    let corner = Rect::from_min_size(view.right_bottom() - size - vec2(MARGIN, MARGIN), size);
+    let card = if view.width() >= SCALE + size.x + MARGIN && corner.top() >= handle + HANDLE {
+        corner
     } else {
         Rect::from_center_size(pos2(view.center().x, bottom - size.y / 2.0), size)
     };

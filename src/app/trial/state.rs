@@ -148,8 +148,9 @@ pub struct Run {
     strongest: [f64; 2],
     /// What the wall has felt, in the order in which it was told.
     pub(super) felt: Vec<Touch>,
-    /// The largest forces, of the runs before on the same surface too.
+    /// The largest forces, of the runs before on the same surface too, and those of these alone.
     pub(super) peaks: Largest,
+    peaks_before: Largest,
     /// What came of it, once it is over.
     pub summary: Option<Summary>,
     /// Why it ended, once it has.
@@ -394,7 +395,8 @@ impl Run {
     /// One that nothing is known of yet. On the surface of the one before, bars and colours keep their scale: what is weaker
     /// looks weaker.
     pub(super) fn new(id: u64, before: Option<&Self>) -> Self {
-        Self { id, peaks: before.map(|before| before.peaks).unwrap_or_default(), ..Self::default() }
+        let peaks = before.map(|before| before.peaks).unwrap_or_default();
+        Self { id, peaks, peaks_before: peaks, ..Self::default() }
     }
 
     /// From the entry: the wire is shown there until more is told.
@@ -404,8 +406,8 @@ impl Run {
 
     /// From a second before, standing still. What was felt up to there is told again.
     pub(super) fn stepped_back(&self, id: u64) -> Self {
-        let (autopilot, frame) = (self.autopilot, self.frame.clone());
-        Self { autopilot, frame, is_paused: true, ..Self::new(id, None) }
+        let (autopilot, frame, peaks) = (self.autopilot, self.frame.clone(), self.peaks_before);
+        Self { id, autopilot, frame, is_paused: true, peaks, peaks_before: peaks, ..Self::default() }
     }
 
     /// Differs wherever the wire may lie otherwise, in this run or another.

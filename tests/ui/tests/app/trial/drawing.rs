@@ -99,7 +99,8 @@ fn a_restart_shows_the_wire_at_its_entry_at_once_and_then_what_is_told() {
     settle(&mut harness);
     start(&mut harness);
     let id = id_of_start(&asked(&memory));
-    tell(&mut harness, &memory, [ready(id), now(id, at_entry())]);
+    // The scale of forces is that of both.
+    tell(&mut harness, &memory, [ready(id), now(id, frame()), now(id, at_entry())]);
     let entry = picture(&mut harness, "Trial view");
     tell(&mut harness, &memory, [now(id, frame())]);
     assert!(picture(&mut harness, "Trial view") != entry);
