@@ -140,15 +140,16 @@ fn the_surface_is_opened_and_the_scan_left() {
     // While it is made no preview takes its place.
     scans.follow(&mut line);
     assert!(line.sent.iter().all(|command| matches!(command, ScanCommand::Slice { .. })));
-    let told = scans.receive(ScanEvent::Surface { generation, mesh: mesh(), shifts_mm: None }, &mut line);
+    let told = scans.receive(ScanEvent::Surface { generation, mesh: mesh(), threshold: None }, &mut line);
     let expected = Source::Made {
         name: "head".to_owned(),
         format: "NIfTI".to_owned(),
         mesh: mesh(),
         axes: crate::io::Axes::Unknown,
         warnings: vec![ScanWarning::Silent { format: "NIfTI".to_owned() }.into()],
+        threshold: None,
     };
-    assert_eq!((told, scans.is_open()), (Some(Told::Made(expected, None)), false));
+    assert_eq!((told, scans.is_open()), (Some(Told::Made(expected)), false));
 }
 
 #[test]
@@ -184,8 +185,8 @@ fn a_scan_is_kept_for_its_slices_until_another_surface_is_open() {
     let (mut scans, mut line) = scan();
     scans.act(Action::Make, &mut line);
     let Some(ScanCommand::Surface { generation, .. }) = line.sent.pop_front() else { panic!("a surface is asked for") };
-    let Some(Told::Made(source, _)) =
-        scans.receive(ScanEvent::Surface { generation, mesh: mesh(), shifts_mm: None }, &mut line)
+    let Some(Told::Made(source)) =
+        scans.receive(ScanEvent::Surface { generation, mesh: mesh(), threshold: None }, &mut line)
     else {
         panic!("it is opened")
     };
@@ -235,8 +236,8 @@ fn planes_are_called_after_the_patients_that_they_are_nearest_to() {
         scans.receive(ScanEvent::Opened(Box::new(OpenedScan { directions, axes, ..*facts })), &mut line);
         scans.act(Action::Make, &mut line);
         let Some(ScanCommand::Surface { generation, .. }) = line.sent.pop_back() else { panic!("it is made") };
-        let Some(Told::Made(source, _)) =
-            scans.receive(ScanEvent::Surface { generation, mesh: mesh(), shifts_mm: None }, &mut line)
+        let Some(Told::Made(source)) =
+            scans.receive(ScanEvent::Surface { generation, mesh: mesh(), threshold: None }, &mut line)
         else {
             panic!("it is opened")
         };
