@@ -121,7 +121,8 @@ impl Opened {
                 return Err(misuse("--surface-by nets is for masks: a threshold lies between voxels"));
             }
             Some(SurfaceMethod::Nets) => Method::SurfaceNets,
-            Some(SurfaceMethod::Cubes) | None => Method::MarchingCubes,
+            Some(SurfaceMethod::Cubes) => Method::MarchingCubes,
+            None => Method::of(selection),
         };
         Ok((Cut { selection, region: options.region, seed, method }, found))
     }
@@ -129,8 +130,8 @@ impl Opened {
     /// The borders of all labels where the options ask for these.
     pub(super) fn borders(&self, options: &ScanOptions) -> Result<Option<LabelledSurface>> {
         let (cut, _) = self.cut(options)?;
-        let asked = (cut.method, cut.selection, options.seed);
-        if asked != (Method::SurfaceNets, Selection::AnyLabel, None) || self.survey.labels.len() < 2 {
+        let asked = (options.surface_by, cut.selection, options.seed);
+        if asked != (Some(SurfaceMethod::Nets), Selection::AnyLabel, None) || self.survey.labels.len() < 2 {
             return Ok(None);
         }
         Ok(Some(surface_nets(&self.grid, Selection::EachLabel, cut.region, Relaxation::default())?))

@@ -359,6 +359,7 @@ impl OpenScan {
             None if open.is_ct() && artery.check(&open.opened.survey).is_ok() => artery,
             None => open.selection,
         };
+        open.method = Method::of(open.selection);
         if open.is_ct() && !open.opened.survey.is_mask() {
             open.window = WINDOWS[0].ends;
         }
