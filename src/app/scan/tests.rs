@@ -10,7 +10,7 @@ use crate::io::ScanWarning;
 use crate::language::Key;
 use crate::mesh::TriMesh;
 use crate::mesh::shapes::icosphere;
-use crate::volume::{Axis, Cut, Label, Region, Selection, Survey};
+use crate::volume::{Axis, Cut, Label, Method, Region, Selection, Survey};
 
 /// A line whose other end is the test.
 #[derive(Default)]
@@ -116,14 +116,15 @@ fn a_scan_begins_with_arteries_and_asks_for_a_preview_at_a_time() {
 #[test]
 fn a_mask_begins_with_all_of_it_and_other_scans_half_way() {
     let (mut scans, mut line) = (Scans::default(), Line::default());
-    for (range, labels, expected) in [
-        ([0.0, 4.0], vec![Label { value: 4, points: 9 }], Selection::AnyLabel),
-        ([0.0, 2000.0], Vec::new(), Selection::Threshold(1000.0)),
+    for (range, labels, expected, method) in [
+        ([0.0, 4.0], vec![Label { value: 4, points: 9 }], Selection::AnyLabel, Method::SurfaceNets),
+        ([0.0, 2000.0], Vec::new(), Selection::Threshold(1000.0), Method::MarchingCubes),
     ] {
         scans.read(vec![NamedFile::new("a", Vec::new())], &mut line);
         let Some(ScanCommand::Open { id, .. }) = line.sent.pop_back() else { panic!("it is read") };
         scans.receive(opened(id, range, labels), &mut line);
-        assert_eq!(scans.shown().unwrap().selection, expected);
+        let open = scans.shown().unwrap();
+        assert_eq!((open.selection, open.method), (expected, method));
     }
 }
 
