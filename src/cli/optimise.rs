@@ -11,7 +11,7 @@ use super::mend::mended_rows;
 use super::misuse::misuse;
 use super::outputs::{Outcome, Outputs, told_with_remedies};
 use super::places::{output_format, write_whole};
-use super::rows::{row, shape_rows};
+use super::rows::{row, shape_rows, threshold_rows};
 use super::running::advance;
 use super::scan_options::ScanOptions;
 use super::settings::{Asked, SettingsOptions};
@@ -159,6 +159,7 @@ impl Optimise {
     fn print(&self, report: &Report, verdict: &Verdict, unit: Unit) {
         let (kept, output) = (report.after_connectivity, report.output);
         row("triangles in file", report.opened.triangles);
+        report.threshold.into_iter().for_each(threshold_rows);
         if let Some(done) = &report.mending {
             mended_rows(done);
         }

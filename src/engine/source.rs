@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::surfaces::surface;
-use crate::io::{Axes, ImportOptions, Warning};
+use crate::io::{Axes, ImportOptions, ThresholdReport, Warning};
 use crate::language::tell;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
@@ -45,6 +45,8 @@ pub enum Source {
         axes: Axes,
         /// What looked odd about the scan.
         warnings: Vec<Warning>,
+        /// How it hangs on its threshold; none of a mask.
+        threshold: Option<ThresholdReport>,
     },
 }
 

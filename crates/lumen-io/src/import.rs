@@ -172,6 +172,7 @@ impl Import {
             volume_mm3: measured.volume_mm3,
             bounds_mm: mesh.bounds(),
             moved_mm: ((DVec3::ZERO - self.raw.origin) * scale).to_array(),
+            threshold: None,
             skipped: self.raw.skipped,
             arrays: infos(&arrays),
             warnings: self.raw.warnings,

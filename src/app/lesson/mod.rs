@@ -31,8 +31,9 @@ use crate::say;
 pub const ENDING: &str = "lesson";
 
 /// The lessons that come with Lumen: name in a link, title, and the text of its file.
-pub const LESSONS: [(&str, Key, Key); 6] = [
+pub const LESSONS: [(&str, Key, Key); 7] = [
     ("stair-steps", Key("lesson-stair-steps"), Key("lesson-stair-steps-text")),
+    ("nets", Key("lesson-nets"), Key("lesson-nets-text")),
     ("pass-band", Key("lesson-pass-band"), Key("lesson-pass-band-text")),
     ("windows", Key("lesson-windows"), Key("lesson-windows-text")),
     ("shrinkage", Key("lesson-shrinkage"), Key("lesson-shrinkage-text")),
@@ -277,7 +278,7 @@ mod tests {
     use crate::language::{Language, built_in, speak};
 
     #[test]
-    fn the_six_lessons_can_be_read_and_are_called_as_the_menu_says() {
+    fn the_lessons_can_be_read_and_are_called_as_the_menu_says() {
         for (name, title, text) in LESSONS {
             let lesson = Lesson::read(text.say().as_bytes()).unwrap_or_else(|error| panic!("{name}: {error}"));
             assert_eq!(lesson.title, title.say());

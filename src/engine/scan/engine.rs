@@ -8,6 +8,7 @@ use super::super::machine::{Machine, SLICE};
 use super::message::{ScanCommand, ScanEvent, ScanWork};
 use super::opening::{Found, Opening};
 use super::shelf::{Empty, Shelf};
+use crate::io::ThresholdReport;
 use crate::language::tell;
 use crate::mesh::TriMesh;
 use crate::say;
@@ -182,8 +183,13 @@ impl ScanEngine {
                 self.events.push_back(ScanEvent::Preview { generation, step, mesh: Arc::new(mesh) });
             }
             (Job::Surface { generation, cut, .. }, Made::Surface(Ok(mesh))) => {
-                let shifts_mm = shifts_mm(&current.grid, &mesh, cut.selection);
-                self.events.push_back(ScanEvent::Surface { generation, mesh: Arc::new(mesh), shifts_mm });
+                let threshold = match (cut.selection, shifts_mm(&current.grid, &mesh, cut.selection)) {
+                    (Selection::Threshold(value), Some([lower_mm, higher_mm])) => {
+                        Some(ThresholdReport { value, lower_mm, higher_mm })
+                    }
+                    _ => None,
+                };
+                self.events.push_back(ScanEvent::Surface { generation, mesh: Arc::new(mesh), threshold });
             }
             (Job::Preview { generation, .. } | Job::Surface { generation, .. }, Made::Surface(Err(error))) => {
                 self.refuse(generation, tell(&error));

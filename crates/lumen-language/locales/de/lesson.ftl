@@ -81,6 +81,43 @@ lesson-stair-steps-text =
     show: split
     look: das Drahtgitter; eines von zehn Dreiecken ist übrig, und die Form ist da.
 
+lesson-nets = Zwei Wege von einer Maske
+lesson-nets-text =
+    lumen lesson 1
+    title: Zwei Wege von einer Maske
+
+    step: Marching Cubes
+    text: Eine Maske sagt von jedem Voxel, ob es Gefäß ist. Marching Cubes legt jeden Eckpunkt auf halbem Weg zwischen ein Voxel, das
+      es ist, und eines, das es nicht ist. So hat die Wand die Stufen der Voxel.
+    sample: aorta
+    settings: iterations=0 reduction=0
+    view: anterior
+    show: raking
+    look: die Stufen; noch ist nichts geglättet.
+
+    step: Surface Nets
+    text: Dieselbe Maske durch Surface Nets. Jede Zelle zwischen ungleichen Voxeln hat einen Eckpunkt, der sich zu seinen Nachbarn hin
+      und wieder zurück bewegt und seine Zelle nie verlässt. Die Oberfläche ist weniger rau, noch vor jedem Filter.
+    sample: aorta-nets
+    settings: iterations=0 reduction=0
+    view: anterior
+    show: raking
+    look: dieselben Stellen wie zuvor.
+    ask: Solches Glätten zieht eine Wand nach innen. Sind die Gefäße davon enger?
+    answer: Nein. Auf jeden Schritt zu den Nachbarn hin folgt einer zurück, und das Volumen weicht um weniger als 1 % von dem durch
+      Marching Cubes ab.
+
+    step: Beide mit dem Filter
+    text: Der Filter glättet die eine wie die andere Oberfläche. Hier ist jede Arterie, die von der Aorta abgeht, auf beiden Wegen
+      gleich weit, auf 1 % ihres mittleren Radius genau.
+    sample: aorta-nets
+    settings: reduction=0
+    view: anterior
+    show: split
+    look: die Linie in der linken Ansicht; links davon Surface Nets, wie sie sind, rechts davon mit dem Filter.
+    ask: Warum beginnt Lumen mit Surface Nets, wenn eine Maske geöffnet wird?
+    answer: Wegen dünner Gefäße. Der Filter schont sie, und so bleibt von ihnen fast das, womit er beginnt.
+
 lesson-pass-band = Durchlassband
 lesson-pass-band-text =
     lumen lesson 1
@@ -296,6 +333,7 @@ lesson-word-progressive-mesh = Progressives Netz: Alle Stufen eines Laufs, aus d
 lesson-word-quadric = Quadrik: Die Summe der quadrierten Abstände von einer Menge von Ebenen, als zehn Zahlen aufbewahrt.
 lesson-word-reduction-rate = Reduktionsrate: Der Teil der Dreiecke, der entfernt wird, in Prozent.
 lesson-word-simple-vertex = Einfacher Eckpunkt: Ein Eckpunkt innerhalb der Oberfläche und auf keiner Formkante.
+lesson-word-surface-nets = Surface Nets: Das Verfahren, das jeder Zelle zwischen ungleichen Voxeln einen Eckpunkt gibt und ihn darin glättet.
 lesson-word-topology = Topologie: Welche Stücke, Löcher und offenen Enden es gibt, was immer ihre Form ist.
 lesson-word-wavelength = Wellenlänge: Die Länge einer Welle auf der Oberfläche, in mm. Der Weg um ein Gefäß ist eine.
 lesson-word-window = Fenster: Gewichte, die die Terme des Filters auslaufen lassen, sodass er weniger wellig ist.
