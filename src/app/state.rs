@@ -120,6 +120,8 @@ struct Opening {
     source: Source,
     /// The settings it begins with.
     settings: Settings,
+    /// What was measured on it when it was open before.
+    measures: Arc<Vec<Measure>>,
 }
 
 /// What was open before, and what belongs to it.

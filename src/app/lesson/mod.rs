@@ -7,6 +7,7 @@ mod format;
 mod glossary;
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use egui::Ui;
 
@@ -26,6 +27,7 @@ use crate::engine::Source;
 use crate::language::Key;
 use crate::pipeline::settings::Settings;
 use crate::say;
+use crate::sharing::measures::Measure;
 
 /// What a lesson's file ends in.
 pub const ENDING: &str = "lesson";
@@ -54,8 +56,10 @@ pub struct Lessons {
 /// What a lesson sets, as the user had it before.
 #[derive(Clone, Debug)]
 pub(super) struct Stood {
-    /// The number of the surface.
-    pub(super) surface: Option<u64>,
+    /// The surface, and its number.
+    pub(super) surface: Option<(u64, Source)>,
+    /// What was measured on it.
+    pub(super) measures: Arc<Vec<Measure>>,
     pub(super) settings: Settings,
     pub(super) options: ViewOptions,
 }
@@ -138,7 +142,8 @@ impl Lessons {
         given.step = step.min(given.lesson.steps.len() - 1);
         given.is_answered = false;
         self.stood.get_or_insert_with(|| Stood {
-            surface: now.state.document.as_ref().map(|document| document.revision.document),
+            surface: now.state.document.as_ref().map(|open| (open.revision.document, open.source.clone())),
+            measures: now.state.measures.clone(),
             settings: now.state.settings.clone(),
             options: now.options,
         });

@@ -11,6 +11,7 @@ use crate::io::{ImportOptions, Unit};
 use crate::language::tell;
 use crate::phantom::{MIN_TRIANGLES, Sample};
 use crate::pipeline::settings::{Keep, Settings};
+use crate::sharing::measures::Measure;
 
 impl State {
     /// Opens the file `name`. What is open stays until that is read.
@@ -29,12 +30,17 @@ impl State {
 
     /// Opens a surface, of all of which the largest piece is kept.
     pub fn open(&mut self, source: Source, link: &mut dyn Link) {
+        self.open_again(source, Arc::default(), link);
+    }
+
+    /// As [`Self::open`], with what was measured on it before.
+    pub fn open_again(&mut self, source: Source, measures: Arc<Vec<Measure>>, link: &mut dyn Link) {
         self.wake(link);
         self.number += 1;
         let id = self.number;
         let settings = Settings { keep: Keep::Largest, ..self.settings.clone() };
         link.send(Command::Open { id, source: source.clone(), settings: settings.clone() });
-        self.opening.push(Opening { id, source, settings });
+        self.opening.push(Opening { id, source, settings, measures });
         self.work = Some((Work::Reading, 0.0));
         self.notices.clear();
     }
@@ -68,8 +74,8 @@ impl State {
         self.engine = Engine::Loaded;
         if let Some(at) = self.opening.iter().position(|opening| opening.id == opened.id) {
             // The engine gives up what it was asked for before.
-            let Opening { source, settings, .. } = self.opening.drain(..=at).next_back()?;
-            self.arrive(Document::new(source, opened), settings);
+            let Opening { source, settings, measures, .. } = self.opening.drain(..=at).next_back()?;
+            self.arrive(Document::new(source, opened), settings, measures);
             return Some(Effect::Opened);
         }
         // Others were read again by a new engine, and are shown already.
@@ -84,7 +90,7 @@ impl State {
     }
 
     /// A surface that is read takes the place of the one that is open.
-    fn arrive(&mut self, document: Document, settings: Settings) {
+    fn arrive(&mut self, document: Document, settings: Settings, measures: Arc<Vec<Measure>>) {
         let keep = self.settings.keep;
         let is_same = self.document.as_ref().is_some_and(|before| before.source.is_same_file(&document.source));
         let before = self.document.replace(document);
@@ -97,10 +103,10 @@ impl State {
         // Pieces are numbered in one surface only.
         self.settings.keep = Keep::Largest;
         // What was measured belongs to the surface that is closed.
-        self.measures = Arc::default();
+        self.measures = measures.clone();
         self.history.change_all(|step| {
             step.settings.keep = Keep::Largest;
-            step.measures = Arc::default();
+            step.measures = measures.clone();
             // Read in another unit it is another step; another file has its own.
             if !is_same {
                 step.unit = unit;

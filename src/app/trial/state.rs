@@ -43,8 +43,9 @@ pub struct Trial {
     pub(super) problem: Option<Problem>,
     /// The number of the newest command that has one.
     pub(super) number: u64,
-    /// The name of the surface.
+    /// The name of the surface, and what it is called in the language that is spoken.
     pub(super) name: String,
+    pub(super) title: String,
     /// While the trial's views are shown: all that means nothing without them.
     pub(super) open: Option<Box<Open>>,
 }

@@ -22,6 +22,7 @@ lesson-show-answer = Antwort zeigen
 lesson-show-answer-help = Zuerst selbst antworten
 # Told as a lesson is closed.
 lesson-given-back = Einstellungen und Farben sind wie vor der Lektion. Rückgängig holt ihre Einstellungen zurück.
+lesson-given-back-surface = { $name } ist wieder offen, mit den Einstellungen von vor der Lektion.
 
 ## Was an einer Lektion falsch ist, die eine Lehrkraft geschrieben hat
 
@@ -289,7 +290,7 @@ lesson-wire-text =
     settings: reduction=90
     view: anterior
     show: vessels
-    look: die Durchmesser in der Tabelle; ein Draht von 0,89 mm muss seinen Weg hindurch finden.
+    look: die Radien in der Tabelle; ein Draht von 0,89 mm Durchmesser muss seinen Weg hindurch finden.
     ask: Wird der Draht die Wand auf dem ganzen Weg berühren oder an wenigen Stellen?
     answer: An wenigen: Er ist steif und liegt außen an den Biegungen an.
 

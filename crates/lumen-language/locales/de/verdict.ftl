@@ -20,10 +20,7 @@ verdict-stopped = Es wurde abgebrochen, oder die Berechnung ist abgestürzt: zum
 # $text is what is said of the surface, a sentence: that it is a sample.
 verdict-sample = Beispiel: { $text }
 verdict-what-to-do = Abhilfe
-verdict-findings = { $count ->
-    [one] Einzelheiten
-   *[other] Alle { $count }
-}
+verdict-findings = Einzelheiten
 verdict-list-grave = Zu prüfen
 verdict-list-notes = Hinweise
 verdict-notes = { $count ->

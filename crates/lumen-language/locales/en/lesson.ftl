@@ -22,6 +22,7 @@ lesson-show-answer = Show the answer
 lesson-show-answer-help = Say your own first
 # Told as a lesson is closed.
 lesson-given-back = Settings and colours are as they were before the lesson. Undo brings its settings back.
+lesson-given-back-surface = { $name } is open again, with the settings from before the lesson.
 
 ## What is wrong with a lesson that a teacher wrote
 
@@ -283,7 +284,7 @@ lesson-wire-text =
     settings: reduction=90
     view: anterior
     show: vessels
-    look: the diameters in the table: a wire of 0.89 mm has to find its way through them.
+    look: the radii in the table: a wire of 0.89 mm across has to find its way through them.
     ask: Will the wire touch the wall all the way, or in a few places?
     answer: In a few: it is stiff and lies against the outside of the bends.
 

@@ -22,6 +22,7 @@ lesson-show-answer = Voir la réponse
 lesson-show-answer-help = Donner d'abord la sienne
 # Told as a lesson is closed.
 lesson-given-back = Réglages et couleurs sont comme avant la leçon. Annuler rétablit ceux de la leçon.
+lesson-given-back-surface = { $name } est de nouveau ouvert, avec les réglages d'avant la leçon.
 
 ## Ce qui ne va pas dans une leçon qu'un enseignant a écrite
 
@@ -289,7 +290,7 @@ lesson-wire-text =
     settings: reduction=90
     view: anterior
     show: vessels
-    look: les diamètres dans le tableau ; un guide de 0,89 mm doit y trouver son chemin.
+    look: les rayons dans le tableau ; un guide de 0,89 mm de diamètre doit y trouver son chemin.
     ask: Le guide touchera-t-il la paroi tout du long, ou en quelques endroits ?
     answer: En quelques-uns : il est raide et s'appuie à l'extérieur des courbes.
 

@@ -20,10 +20,7 @@ verdict-stopped = La mesure a été annulée, ou le calcul s'est arrêté : mod
 # $text is what is said of the surface, a sentence: that it is a sample.
 verdict-sample = Exemple : { $text }
 verdict-what-to-do = Que faire
-verdict-findings = { $count ->
-    [one] Détails
-   *[other] Les { $count }
-}
+verdict-findings = Détails
 verdict-list-grave = À vérifier
 verdict-list-notes = Remarques
 verdict-notes = { $count ->
