@@ -93,7 +93,7 @@ impl Sample {
         match self {
             Self::Aorta => 74_307,
             Self::Coronary => 380_000,
-            Self::AortaNets => 74_332,
+            Self::AortaNets => 74_328,
         }
     }
 
