@@ -15,7 +15,6 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -182,14 +181,19 @@ def details(rows):
     return lines
 
 
+#: Begins a program from a small one: its peak is at least that of the one that began it.
+MEASURE = """import resource, subprocess, sys, time
+began = time.perf_counter()
+subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+print(time.perf_counter() - began, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024)"""
+
+
 def used(command):
     """Seconds and peak MB of a program, on one core."""
-    began = time.perf_counter()
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, env=os.environ | {"RAYON_NUM_THREADS": "1"})
-    _, status, usage = os.wait4(process.pid, 0)
-    if status:
-        raise RuntimeError(f"{command}: status {status}")
-    return time.perf_counter() - began, usage.ru_maxrss // 1024
+    ran = subprocess.run([sys.executable, "-c", MEASURE, *command], capture_output=True, text=True, check=True,
+                         env=os.environ | {"RAYON_NUM_THREADS": "1"})
+    seconds, memory = ran.stdout.split()
+    return float(seconds), int(memory)
 
 
 def masks(folder):
@@ -205,27 +209,6 @@ def masks(folder):
     yield "`vmtk_aorta_mra.mha` from 600 on", file
 
 
-def nets_alone(file, out):
-    """What a program of VTK alone does."""
-    vtk.vtkSMPTools.Initialize(1)
-    reader = vtk.vtkNIFTIImageReader() if file.endswith(".gz") else vtk.vtkMetaImageReader()
-    reader.SetFileName(file)
-    reader.Update()
-    began = time.perf_counter()
-    nets = vtk.vtkSurfaceNets3D()
-    nets.SetInputData(reader.GetOutput())
-    nets.SetValue(0, 1)
-    nets.SetBackgroundLabel(0)
-    nets.SetOutputMeshTypeToTriangles()
-    nets.Update()
-    took = time.perf_counter() - began
-    writer = vtk.vtkPLYWriter()
-    writer.SetInputData(nets.GetOutput())
-    writer.SetFileName(out)
-    writer.Write()
-    print(f"nets alone: {took:.2f} s", file=sys.stderr)
-
-
 def cost():
     """Time and memory on real masks."""
     lines = ["| mask | way | vertices | time | memory |", "|---|---|---:|---:|---:|"]
@@ -233,7 +216,7 @@ def cost():
         for name, file in masks(folder):
             for way, *command in [(WAYS[0], PROGRAM, "surface", file, "--label", "1", "--surface-by", "cubes", "-o"),
                                   (WAYS[3], PROGRAM, "surface", file, "--label", "1", "--surface-by", "nets", "-o"),
-                                  (WAYS[5], sys.executable, __file__, "--nets", file)]:
+                                  (WAYS[5], sys.executable, Path(__file__).with_name("nets.py"), "--write", file)]:
                 out = Path(folder) / "out.ply"
                 seconds, memory = min(used([*map(str, command), str(out)]) for _ in range(3))
                 vertices = len(np.unique(read_ply(out)[0], axis=0))
@@ -242,9 +225,6 @@ def cost():
 
 
 def main(names):
-    if names[:1] == ["--nets"]:
-        nets_alone(*names[1:])
-        return
     chosen = [(tube(d), spacing) for spacing in SPACINGS for d in DIAMETERS if d / np.prod(spacing) ** (1 / 3) >= 2]
     chosen += [(sample(name), spacing) for name, spacing in CT.items()]
     rows = []

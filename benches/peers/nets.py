@@ -2,9 +2,11 @@
 crates/lumen-volume/src/surface_nets.rs and of tests/real/scans.rs, with time and memory.
 
     python nets.py [FOLDER]
+    python nets.py --write MASK OUT
 
 Python is one with requirements.txt (`cargo xtask peers` makes it: target/peers/venv). FOLDER is that of the test data;
-else LUMEN_DATA, else ../shared/data beside the checkout. A line of JSON for each: vertices, triangles, and how many of these
+else LUMEN_DATA, else ../shared/data beside the checkout. With --write the surface of label 1 of MASK, NIfTI or MetaImage, goes
+into OUT as PLY, which `masks.py` takes the time of. A line of JSON for each: vertices, triangles, and how many of these
 have which two labels beside them. VTK has more vertices than places: some lie where others do.
 """
 import json
@@ -38,6 +40,13 @@ def image(values, spacing):
     return made
 
 
+def read(path):
+    reader = vtk.vtkMetaImageReader() if path.endswith(".mha") else vtk.vtkNIFTIImageReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+
 def nets(made, values, smooth):
     method = vtk.vtkSurfaceNets3D()
     method.SetInputData(made)
@@ -50,6 +59,8 @@ def nets(made, values, smooth):
     method.Update()
     took = time.perf_counter() - began
     found = method.GetOutput()
+    if sys.argv[1:2] == ["--write"]:
+        return found
     places = len(np.unique(vtk_to_numpy(found.GetPoints().GetData()), axis=0))
     pairs = vtk_to_numpy(found.GetCellData().GetArray("BoundaryLabels"))
     sides = Counter(tuple(int(label) for label in pair) for pair in pairs)
@@ -61,10 +72,14 @@ def nets(made, values, smooth):
 
 
 vtk.vtkSMPTools.Initialize(1)
+if sys.argv[1:2] == ["--write"]:
+    writer = vtk.vtkPLYWriter()
+    writer.SetInputData(nets(read(sys.argv[2]), [1], True))
+    writer.SetFileName(sys.argv[3])
+    writer.Write()
+    sys.exit()
 nets(image(labels(), (0.5, 0.5, 1.0)), [1, 2, 5], False)
 beside = os.environ.get("LUMEN_DATA", ROOT.parent / "shared" / "data")
-reader = vtk.vtkNIFTIImageReader()
-reader.SetFileName(str(Path(sys.argv[1] if len(sys.argv) > 1 else beside) / "volumes" / "seqseg_PA000016_mask.nii.gz"))
-reader.Update()
+mask = read(str(Path(sys.argv[1] if len(sys.argv) > 1 else beside) / "volumes" / "seqseg_PA000016_mask.nii.gz"))
 for smooth in [False, True]:
-    nets(reader.GetOutput(), [1], smooth)
+    nets(mask, [1], smooth)

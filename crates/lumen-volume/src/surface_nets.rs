@@ -1,7 +1,7 @@
 //! Surface nets, slice by slice: the surface of a mask whose vertices relax within their voxel cells.
 //!
 //! Gibson 1998, *Constrained elastic surface nets*: each cell between eight neighbouring voxels that are not all alike has a
-//! vertex, and each pair of neighbouring voxels that differ has a quadrilateral between the vertices of the four cells around it.
+//! vertex in its middle, and each pair of neighbouring voxels that differ has a quadrilateral between the vertices of the four cells around it.
 //! Then every vertex moves by `factor` of the way to the mean of the vertices that it shares an edge with, by `back` of the way
 //! from it, and back into its cell if it left that, `iterations` times:
 //!
@@ -243,9 +243,12 @@ impl Nets {
         self.layers[1].case[at] = case;
         let least = Vec3::from_array(cell.map(|along| along as f32 - 1.0));
         let [low, high] = self.extent(cell.map(|along| along as u32));
-        for &middle in self.loops.middles(case) {
+        let middles = self.loops.middles(case);
+        for &middle in middles {
             self.cells.push(cell.map(|along| along as u32));
-            self.positions.push((least + middle).clamp(low, high));
+            // The middle of a loop lies too far in where the wall bends outwards: it only tells several apart.
+            let start = if middles.len() == 1 { Vec3::splat(0.5) } else { middle };
+            self.positions.push((least + start).clamp(low, high));
         }
         if cell.contains(&0) {
             return;

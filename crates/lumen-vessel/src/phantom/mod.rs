@@ -93,7 +93,7 @@ impl Sample {
         match self {
             Self::Aorta => 74_307,
             Self::Coronary => 380_000,
-            Self::AortaNets => 74_332,
+            Self::AortaNets => 74_328,
         }
     }
 
@@ -293,7 +293,7 @@ fn nets(
     // A grid that is too coarse has no vessel in it.
     let mesh = made.map_or_else(|_| TriMesh::default(), |made| made.mesh);
     Ok(mesh.filtered(|t| {
-        let [a, b, c] = mesh.corners(t).map(|p| p.as_dvec3());
+        let [a, b, c] = mesh.corners(t).map(DVec3::from);
         !field.is_behind_an_end((a + b + c) / 3.0, 0.0)
     }))
 }

@@ -72,7 +72,7 @@ fn a_thin_tube_keeps_its_radius_and_loses_steps() {
     // The mean distance from the axis and the angle from the radius, weighted by area, away from the faces.
     let measured = |mesh: &TriMesh| {
         let [mut area, mut distance, mut square] = [0.0; 3];
-        for corners in (0..mesh.triangles.len()).map(|t| mesh.corners(t).map(|p| p.as_dvec3())) {
+        for corners in (0..mesh.triangles.len()).map(|t| mesh.corners(t).map(DVec3::from)) {
             let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
             let out = middle - axis * middle.dot(axis);
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
