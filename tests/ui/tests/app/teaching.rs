@@ -221,8 +221,7 @@ fn a_lesson_that_is_closed_gives_back_the_file_that_was_open() {
     menu(&mut harness, "What decimation keeps");
     settle(&mut harness);
     assert_eq!(name(&harness), "Abdominal aorta");
-    harness.key_press(Key::Escape);
-    harness.run_steps(3);
+    click(&mut harness, "Close lesson");
     settle(&mut harness);
     assert_eq!((name(&harness), &harness.state().state().settings), ("tube.obj".to_owned(), &settings));
     assert!(notice(&harness).starts_with("tube.obj is open again"), "{}", notice(&harness));
