@@ -75,7 +75,7 @@ impl State {
         if let Some(at) = self.opening.iter().position(|opening| opening.id == opened.id) {
             // The engine gives up what it was asked for before.
             let Opening { source, settings, measures, .. } = self.opening.drain(..=at).next_back()?;
-            self.arrive(Document::new(source, opened), settings, measures);
+            self.arrive(Document::new(source, opened), settings, &measures);
             return Some(Effect::Opened);
         }
         // Others were read again by a new engine, and are shown already.
@@ -90,7 +90,7 @@ impl State {
     }
 
     /// A surface that is read takes the place of the one that is open.
-    fn arrive(&mut self, document: Document, settings: Settings, measures: Arc<Vec<Measure>>) {
+    fn arrive(&mut self, document: Document, settings: Settings, measures: &Arc<Vec<Measure>>) {
         let keep = self.settings.keep;
         let is_same = self.document.as_ref().is_some_and(|before| before.source.is_same_file(&document.source));
         let before = self.document.replace(document);
@@ -103,10 +103,10 @@ impl State {
         // Pieces are numbered in one surface only.
         self.settings.keep = Keep::Largest;
         // What was measured belongs to the surface that is closed.
-        self.measures = measures.clone();
+        self.measures.clone_from(measures);
         self.history.change_all(|step| {
             step.settings.keep = Keep::Largest;
-            step.measures = measures.clone();
+            step.measures.clone_from(measures);
             // Read in another unit it is another step; another file has its own.
             if !is_same {
                 step.unit = unit;
