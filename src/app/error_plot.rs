@@ -22,9 +22,8 @@ const HEIGHT: f32 = 150.0;
 const POINTS: usize = 200;
 /// The curve is shown up to what this rate costs, or the level that is shown, if that costs more.
 const SHOWN_PERCENT: f64 = 98.0;
-
-/// From this many powers of ten on there is no room for labels between them.
-const FEW: f64 = 2.5;
+/// Over more powers of ten than this there is no room for labels between them.
+const DECADES: f64 = 2.5;
 
 /// A curve that was shown, with the method and the rest that it is of.
 #[derive(Clone)]
@@ -175,7 +174,7 @@ fn curves(ui: &Ui, state: &State) -> Option<Vec<Kept>> {
 
 /// Where the axis of triangles has its labels: powers of ten, and where these are few 2 and 5 times them.
 fn marks((low, high): (f64, f64)) -> Vec<GridMark> {
-    let (leads, step_size): (&[f64], _) = if high - low > FEW { (&[1.0], 1.0) } else { (&[1.0, 2.0, 5.0], 0.3) };
+    let (leads, step_size): (&[f64], _) = if high - low > DECADES { (&[1.0], 1.0) } else { (&[1.0, 2.0, 5.0], 0.3) };
     let powers = (0..8).flat_map(|power| leads.iter().map(move |&lead| libm::log10(lead) + f64::from(power)));
     let shown = powers.filter(|value| (low..=high).contains(value));
     shown.map(|value| GridMark { value, step_size }).collect()

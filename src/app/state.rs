@@ -252,8 +252,13 @@ impl State {
 
     /// Notes what stands now as a step to undo, if it is another than before.
     pub fn record(&mut self) {
-        let now = Step { measures: self.measures.clone(), ..Step::of(&self.settings, self.asked_unit()) };
+        let now = self.step();
         self.history.record(&now);
+    }
+
+    /// What stands now, as a step.
+    fn step(&self) -> Step {
+        Step { measures: self.measures.clone(), ..Step::of(&self.settings, self.asked_unit()) }
     }
 
     /// Goes one step back. A file that was read in another unit then is read in it again.

@@ -14,7 +14,7 @@ use crate::io::{Axes, Imported, Offer, ReadError, ThresholdReport, Warning, impo
 use crate::task::{Yielder, at_once};
 use crate::volume::{
     Cut, Grid, HalfWay, Label, LabelledSurface, Method, PRESETS, Relaxation, Selection, Survey, VolumeError, half_way,
-    shifts_mm, surface_in_slices, surface_nets, survey,
+    surface_in_slices, surface_nets, survey,
 };
 
 /// What is said of a folder without surfaces: it may be a scan.
@@ -154,11 +154,9 @@ impl Opened {
     pub(super) fn surface(&self, options: &ScanOptions) -> Result<Imported> {
         let (cut, _) = self.cut(options)?;
         let mesh = at_once(surface_in_slices(&self.grid, cut, &Yielder::never()))?;
-        let shifts = shifts_mm(&self.grid, &mesh, cut.selection);
+        let threshold = ThresholdReport::new(&self.grid, &mesh, cut.selection);
         let mut imported = import_mesh(mesh, self.format);
-        if let (Selection::Threshold(value), Some([lower_mm, higher_mm])) = (cut.selection, shifts) {
-            imported.report.threshold = Some(ThresholdReport { value, lower_mm, higher_mm });
-        }
+        imported.report.threshold = threshold;
         imported.report.axes = self.axes;
         imported.report.warnings.splice(..0, self.warnings.iter().cloned());
         Ok(imported)

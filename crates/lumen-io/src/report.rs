@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::warnings::{Warning, in_english};
 use super::{Axes, Unit};
 use lumen_mesh::{Array, ArrayInfo, Bounds, TriMesh};
+use lumen_volume::{Grid, Selection, shifts_mm};
 
 /// A surface as it was read, and what is to be said about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,6 +98,15 @@ pub struct ThresholdReport {
     pub lower_mm: f64,
     /// The same at one 10 % higher, negative where it would move inwards.
     pub higher_mm: f64,
+}
+
+impl ThresholdReport {
+    /// Of `mesh`, the surface of a selection of `grid` in the grid's own coordinates; `None` where that is no threshold.
+    pub fn new(grid: &Grid, mesh: &TriMesh, selection: Selection) -> Option<Self> {
+        let Selection::Threshold(value) = selection else { return None };
+        let [lower_mm, higher_mm] = shifts_mm(grid, mesh, selection)?;
+        Some(Self { value, lower_mm, higher_mm })
+    }
 }
 
 /// Parts of a file that are no surface and were left out, counted.

@@ -180,7 +180,8 @@ impl Graph {
                     let out = ways.length[end as usize] - ways.length[free[0] as usize]
                         + (first.centre.distance(trunk.centre) - trunk.radius).max(0.0);
                     let tip = self.balls[end as usize];
-                    let (mean, longest) = (self.mean_radius(&free), (out + tip.radius) / (2.0 * DIAMETERS));
+                    // The mean radius that a branch of this length may have.
+                    let (mean, most) = (self.mean_radius(&free), (out + tip.radius) / (2.0 * DIAMETERS));
                     let is_loop = || {
                         out >= STICKS_OUT_LOOP * tip.radius && self.closes_loop(&ways, &covering.owner, &free, &trunk)
                     };
@@ -188,8 +189,8 @@ impl Graph {
                         out >= STICKS_OUT_OPEN * tip.radius
                     } else {
                         out >= STICKS_OUT_OF * trunk.radius
-                            && (longest >= mean || is_loop())
-                            && self.is_tube(&free, mean.max(longest))
+                            && (most >= mean || is_loop())
+                            && self.is_tube(&free, mean.max(most))
                     };
                     if is_branch {
                         covering.add(self, found.paths.len(), &free);

@@ -1,9 +1,9 @@
 //! Surface nets, slice by slice: the surface of a mask whose vertices relax within their voxel cells.
 //!
 //! Gibson 1998, *Constrained elastic surface nets*: each cell between eight neighbouring voxels that are not all alike has a
-//! vertex in its middle, and each pair of neighbouring voxels that differ has a quadrilateral between the vertices of the four cells around it.
-//! Then every vertex moves by `factor` of the way to the mean of the vertices that it shares an edge with, by `back` of the way
-//! from it, and back into its cell if it left that, `iterations` times:
+//! vertex in its middle, and each pair of neighbouring voxels that differ has a quadrilateral between the vertices of the four
+//! cells around it. Then every vertex moves by `factor` of the way to the mean of the vertices that it shares an edge with, by
+//! `back` of the way from it, and back into its cell if it left that, `iterations` times:
 //!
 //! ```text
 //! x <- clamp(x + factor (mean of the neighbours - x), cell)
@@ -11,9 +11,9 @@
 //! ```
 //!
 //! So stair-steps go, and the surface stays between the voxels that it separates. Gibson and VTK have the first step alone, by
-//! which a vessel of six voxels across loses 11 % and more of its radius; the second gives that back (Taubin 1995). All labels of a map are done at once and
-//! share their borders (Frisken 2022, whose method VTK has as `vtkSurfaceNets3D`). A vertex where three labels and more meet
-//! moves along such edges alone, one on a rim along the rim.
+//! which a vessel of six voxels across loses 11 % and more of its radius; the second gives that back (Taubin 1995). All labels
+//! of a map are done at once and share their borders (Frisken 2022, whose method VTK has as `vtkSurfaceNets3D`). A vertex where
+//! three labels and more meet moves along such edges alone, one on a rim along the rim.
 //!
 //! Where a cell has two labels it has a vertex for each loop of [`super::cube_cases`] (Nielson 2004, *Dual marching cubes*), in
 //! place of one that non-manifold fans would share. Two cells can be joined twice through a face whose voxels of one label

@@ -94,7 +94,6 @@ impl Trial {
         };
         let (id, mesh) = (self.next_number(), Arc::new(mesh));
         document.name.clone_into(&mut self.name);
-        self.title = document.title().into_owned();
         let (sample, setup) = (sample_of(document), self.setup.clone());
         let open = self.open.get_or_insert_default();
         (open.awaits, open.flight) = (None, None);

@@ -187,6 +187,13 @@ impl From<String> for Problem {
 }
 
 impl Trial {
+    /// Takes what its surface is called, which changes with the language: as long as that surface is open.
+    pub(super) fn take_title(&mut self, document: Option<&Document>) {
+        if let Some(document) = document.filter(|document| document.name == self.name) {
+            self.title = document.title().into_owned();
+        }
+    }
+
     /// None is on; the wire is to be the one that is proposed.
     pub(in crate::app) fn new() -> Self {
         Self { setup: Setup { proposes_wire: true, ..Setup::default() }, ..Self::default() }

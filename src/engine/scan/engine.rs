@@ -14,8 +14,8 @@ use crate::mesh::TriMesh;
 use crate::say;
 use crate::task::{Budget, Progress, Running};
 use crate::volume::{
-    Cut, Grid, Region, Selection, Survey, VolumeError, half_way, preview_step, reduced_in_slices, region_of, shifts_mm,
-    slice, surface_in_slices,
+    Cut, Grid, Region, Selection, Survey, VolumeError, half_way, preview_step, reduced_in_slices, region_of, slice,
+    surface_in_slices,
 };
 
 /// A volume and surfaces of it, as a machine of commands and events.
@@ -183,12 +183,7 @@ impl ScanEngine {
                 self.events.push_back(ScanEvent::Preview { generation, step, mesh: Arc::new(mesh) });
             }
             (Job::Surface { generation, cut, .. }, Made::Surface(Ok(mesh))) => {
-                let threshold = match (cut.selection, shifts_mm(&current.grid, &mesh, cut.selection)) {
-                    (Selection::Threshold(value), Some([lower_mm, higher_mm])) => {
-                        Some(ThresholdReport { value, lower_mm, higher_mm })
-                    }
-                    _ => None,
-                };
+                let threshold = ThresholdReport::new(&current.grid, &mesh, cut.selection);
                 self.events.push_back(ScanEvent::Surface { generation, mesh: Arc::new(mesh), threshold });
             }
             (Job::Preview { generation, .. } | Job::Surface { generation, .. }, Made::Surface(Err(error))) => {

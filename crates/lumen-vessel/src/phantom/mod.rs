@@ -1,8 +1,8 @@
 //! Vessel trees that Lumen makes itself, to try everything on without a file.
 //!
 //! A sample is made the way a segmented scan is: vessels with published dimensions ([`vessels`]) are sampled as a
-//! binary mask on an anisotropic, CT-like grid, and the mask is cut by marching cubes, or one by surface nets. So the surface has the
-//! stair-steps of a segmentation, open ends where vessels leave the volume, and a few detached specks of noise.
+//! binary mask on an anisotropic, CT-like grid, and the mask is cut by marching cubes, or one by surface nets. So the surface
+//! has the stair-steps of a segmentation, open ends where vessels leave the volume, and a few detached specks of noise.
 //! Coordinates are LPS millimetres: x to the patient's left, y to the back, z up.
 //!
 //! The same sample and count give the same bytes on every platform.
