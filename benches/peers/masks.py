@@ -19,8 +19,9 @@ from pathlib import Path
 
 import numpy as np
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtk.util.numpy_support import vtk_to_numpy
 
+from nets import image, nets
 from phantoms import worst
 from quality import areas, arrays
 from sections import DATA, PROGRAM, Cuts, document, lumen, optimise, read_ply, windowed_sinc, write_rows
@@ -46,25 +47,11 @@ def write_mask(path, origin, inside, spacing):
     Path(path).write_bytes(head.encode() + inside.tobytes())
 
 
-def image(origin, inside, spacing):
-    made = vtk.vtkImageData()
-    made.SetDimensions(*inside.shape[::-1])
-    made.SetSpacing(spacing)
-    made.SetOrigin(origin)
-    made.GetPointData().SetScalars(numpy_to_vtk(inside.ravel(), deep=1, array_type=vtk.VTK_UNSIGNED_CHAR))
-    return made
-
-
-def vtk_nets(made):
-    nets = vtk.vtkSurfaceNets3D()
-    nets.SetInputData(made)
-    nets.SetValue(0, 1)
-    nets.SetBackgroundLabel(0)
-    nets.SetOutputMeshTypeToTriangles()
-    nets.Update()
+def vtk_nets(origin, inside, spacing):
+    found, _ = nets(image(inside, spacing, origin), [1])
     # Some of its vertices lie where others do.
     clean = vtk.vtkCleanPolyData()
-    clean.SetInputConnection(nets.GetOutputPort())
+    clean.SetInputData(found)
     clean.PointMergingOn()
     clean.SetTolerance(0)
     clean.Update()
@@ -84,7 +71,7 @@ def surfaces(mask, folder):
         made[f"{by}, Lumen's smoothing"] = smooth
     of = report["settings"]["smoothing"]
     made[WAYS[2]] = windowed_sinc(made[WAYS[0]], of["pass_band"], of["iterations"], window=of["window"].title())
-    made[WAYS[5]] = arrays(vtk_nets(image(*mask)))
+    made[WAYS[5]] = arrays(vtk_nets(*mask))
     return made
 
 
@@ -232,6 +219,8 @@ def main(names):
         if not names or any(name in phantom.name for name in names):
             rows += measured(phantom, spacing)
             print(phantom.name, spacing, len(rows), file=sys.stderr, flush=True)
+    if not rows:
+        sys.exit(f"no phantom has a name with {' or '.join(names)} in it")
     if names:
         print(table(rows))
         return
