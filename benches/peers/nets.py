@@ -2,9 +2,11 @@
 crates/lumen-volume/src/surface_nets.rs and of tests/real/scans.rs, with time and memory.
 
     python nets.py [FOLDER]
+    python nets.py --write MASK OUT
 
 Python is one with requirements.txt (`cargo xtask peers` makes it: target/peers/venv). FOLDER is that of the test data;
-else LUMEN_DATA, else ../shared/data beside the checkout. A line of JSON for each: vertices, triangles, and how many of these
+else LUMEN_DATA, else ../shared/data beside the checkout. With --write the surface of label 1 of MASK, NIfTI or MetaImage, goes
+into OUT as PLY, which `masks.py` takes the time of. A line of JSON for each: vertices, triangles, and how many of these
 have which two labels beside them. VTK has more vertices than places: some lie where others do.
 """
 import json
@@ -30,15 +32,25 @@ def labels():
     return np.where(x * x + y * y + z * z < 225, found, 0).astype(np.uint8)
 
 
-def image(values, spacing):
+def image(values, spacing, origin=(0, 0, 0)):
+    """Labels, k running slowest, as an image of VTK."""
     made = vtk.vtkImageData()
     made.SetDimensions(values.shape[::-1])
     made.SetSpacing(spacing)
+    made.SetOrigin(origin)
     made.GetPointData().SetScalars(numpy_to_vtk(values.ravel(), deep=True))
     return made
 
 
-def nets(made, values, smooth):
+def read(path):
+    reader = vtk.vtkMetaImageReader() if path.endswith(".mha") else vtk.vtkNIFTIImageReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def nets(made, values, smooth=True):
+    """The surface of some labels, and the seconds that VTK takes for it."""
     method = vtk.vtkSurfaceNets3D()
     method.SetInputData(made)
     for n, value in enumerate(values):
@@ -48,8 +60,11 @@ def nets(made, values, smooth):
     method.SetOutputMeshTypeToTriangles()
     began = time.perf_counter()
     method.Update()
-    took = time.perf_counter() - began
-    found = method.GetOutput()
+    return method.GetOutput(), time.perf_counter() - began
+
+
+def facts(made, values, smooth):
+    found, took = nets(made, values, smooth)
     places = len(np.unique(vtk_to_numpy(found.GetPoints().GetData()), axis=0))
     pairs = vtk_to_numpy(found.GetCellData().GetArray("BoundaryLabels"))
     sides = Counter(tuple(int(label) for label in pair) for pair in pairs)
@@ -60,11 +75,23 @@ def nets(made, values, smooth):
     }), flush=True)
 
 
-vtk.vtkSMPTools.Initialize(1)
-nets(image(labels(), (0.5, 0.5, 1.0)), [1, 2, 5], False)
-beside = os.environ.get("LUMEN_DATA", ROOT.parent / "shared" / "data")
-reader = vtk.vtkNIFTIImageReader()
-reader.SetFileName(str(Path(sys.argv[1] if len(sys.argv) > 1 else beside) / "volumes" / "seqseg_PA000016_mask.nii.gz"))
-reader.Update()
-for smooth in [False, True]:
-    nets(reader.GetOutput(), [1], smooth)
+def write(mask, out):
+    writer = vtk.vtkPLYWriter()
+    writer.SetInputData(nets(read(mask), [1])[0])
+    writer.SetFileName(out)
+    writer.Write()
+
+
+def main(arguments):
+    vtk.vtkSMPTools.Initialize(1)
+    if arguments[:1] == ["--write"]:
+        return write(*arguments[1:])
+    facts(image(labels(), (0.5, 0.5, 1.0)), [1, 2, 5], False)
+    beside = os.environ.get("LUMEN_DATA", ROOT.parent / "shared" / "data")
+    mask = read(str(Path(arguments[0] if arguments else beside) / "volumes" / "seqseg_PA000016_mask.nii.gz"))
+    for smooth in [False, True]:
+        facts(mask, [1], smooth)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -43,6 +43,7 @@ class Phantom:
     open_ends: list = field(default_factory=list)
 
     def grid(self, spacing):
+        """Origin and size of the grid; the spacing is in mm, one number or one for each axis, here and below."""
         points = np.concatenate([line.points for line in self.lines])
         radii = np.concatenate([line.radii for line in self.lines])
         low = (points - radii[:, None]).min(0) - (4 + SHIFT) * spacing - 6 * bool(self.parts)
@@ -57,10 +58,11 @@ class Phantom:
 
     def straight(self, origin, size, spacing):
         radius, length = self.profile
+        spacing = np.broadcast_to(spacing, 3)
         inside = np.zeros(size[::-1], np.uint8)
-        y, x = np.meshgrid(*(origin[i] + spacing * np.arange(size[i]) for i in [1, 0]), indexing="ij")
+        y, x = np.meshgrid(*(origin[i] + spacing[i] * np.arange(size[i]) for i in [1, 0]), indexing="ij")
         for k in range(size[2]):
-            z = origin[2] + spacing * k
+            z = origin[2] + spacing[2] * k
             s = x * AXIS[0] + y * AXIS[1] + z * AXIS[2]
             across = np.sqrt(np.maximum(x * x + y * y + z * z - s * s, 0))
             inside[k] = (s > 0) & (s < length) & (across < radius(np.clip(s, 0, length)))
@@ -68,14 +70,14 @@ class Phantom:
 
     def joined(self, origin, size, spacing):
         """Round cones, joined by the polynomial smooth minimum, as src/phantom/field.rs has it."""
-        whole, far = None, np.float32(1e3)
+        whole, far, spacing = None, np.float32(1e3), np.broadcast_to(spacing, 3)
         for fillet, cones in self.parts:
             part = np.full(size[::-1], far, np.float32)
             for start, end, r0, r1 in cones:
                 reach = max(r0, r1) + fillet + 2 * spacing
                 low = np.maximum(np.floor((np.minimum(start, end) - reach - origin) / spacing).astype(int), 0)
                 high = np.minimum(np.ceil((np.maximum(start, end) + reach - origin) / spacing).astype(int) + 1, size)
-                x, y, z = (np.float32(origin[i] - start[i] + spacing * np.arange(low[i], high[i])) for i in range(3))
+                x, y, z = (np.float32(origin[i] - start[i] + spacing[i] * np.arange(low[i], high[i])) for i in range(3))
                 x, y, z = x[None, None], y[None, :, None], z[:, None, None]
                 d = (end - start).astype(np.float32)
                 t = np.clip((x * d[0] + y * d[1] + z * d[2]) / max(float(d @ d), 1e-12), 0, 1)

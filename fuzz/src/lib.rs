@@ -21,8 +21,8 @@ pub fn survives(bytes: &[u8], name: &str) {
     }
 }
 
-/// Bytes of a file that are known before the rest comes in pieces.
-const KNOWN: usize = 1024;
+/// Bytes of a file that are known before the rest comes in pieces: those that say what it is.
+const KNOWN: usize = 4096;
 /// Bytes of such a piece.
 const PIECE: usize = 61;
 

@@ -22,6 +22,8 @@ const HEIGHT: f32 = 150.0;
 const POINTS: usize = 200;
 /// The curve is shown up to what this rate costs, or the level that is shown, if that costs more.
 const SHOWN_PERCENT: f64 = 98.0;
+/// Over more powers of ten than this there is no room for labels between them.
+const DECADES: f64 = 2.5;
 
 /// A curve that was shown, with the method and the rest that it is of.
 #[derive(Clone)]
@@ -170,11 +172,12 @@ fn curves(ui: &Ui, state: &State) -> Option<Vec<Kept>> {
     Some(kept)
 }
 
-/// Where the axis of triangles has its labels: 1, 2 and 5 times powers of ten.
+/// Where the axis of triangles has its labels: powers of ten, and where these are few 2 and 5 times them.
 fn marks((low, high): (f64, f64)) -> Vec<GridMark> {
-    let powers = (0..8).flat_map(|power| [1.0, 2.0, 5.0].map(|lead| libm::log10(lead) + f64::from(power)));
+    let (leads, step_size): (&[f64], _) = if high - low > DECADES { (&[1.0], 1.0) } else { (&[1.0, 2.0, 5.0], 0.3) };
+    let powers = (0..8).flat_map(|power| leads.iter().map(move |&lead| libm::log10(lead) + f64::from(power)));
     let shown = powers.filter(|value| (low..=high).contains(value));
-    shown.map(|value| GridMark { value, step_size: 0.3 }).collect()
+    shown.map(|value| GridMark { value, step_size }).collect()
 }
 
 /// A round number in few letters: 20k.
@@ -204,6 +207,8 @@ mod tests {
     fn the_axis_names_round_numbers_of_triangles() {
         let names: Vec<String> = marks((2.2, 4.4)).iter().map(|mark| short(libm::exp10(mark.value))).collect();
         assert_eq!(names, ["200", "500", "1k", "2k", "5k", "10k", "20k"]);
+        let names: Vec<String> = marks((1.7, 5.6)).iter().map(|mark| short(libm::exp10(mark.value))).collect();
+        assert_eq!(names, ["100", "1k", "10k", "100k"]);
         assert_eq!(short(5e6), "5M");
     }
 }

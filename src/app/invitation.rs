@@ -11,7 +11,9 @@ use crate::say;
 
 /// Room around the words, in points.
 const MARGIN: f32 = 8.0;
-/// Room below it for the scale of the view, and above it for the title, in points.
+/// Width of the scale of the view with the room around it, in points: the card stands beside it.
+const SCALE: f32 = 140.0;
+/// Where there is no room beside it: room below the card for the scale, and above it for the title, in points.
 const BELOW: f32 = 44.0;
 const ABOVE: f32 = 56.0;
 /// Room for the handle of the line between as opened and now, in points.
@@ -40,7 +42,12 @@ pub(super) fn show(ui: &mut Ui, view: Rect, asked: &mut Vec<Action>) {
     let handle = grip(view, view.center().x).y;
     let lowest = view.bottom() - BELOW;
     let bottom = if lowest - size.y >= handle + HANDLE { lowest } else { lowest.min(handle - HANDLE) };
-    let card = Rect::from_center_size(pos2(view.center().x, bottom - size.y / 2.0), size);
+    let corner = Rect::from_min_size(view.right_bottom() - size - vec2(MARGIN, MARGIN), size);
+    let card = if view.width() >= SCALE + size.x + MARGIN && corner.top() >= handle + HANDLE {
+        corner
+    } else {
+        Rect::from_center_size(pos2(view.center().x, bottom - size.y / 2.0), size)
+    };
     if card.width() > view.width() || card.top() < view.top() + ABOVE {
         return;
     }

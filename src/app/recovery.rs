@@ -102,7 +102,8 @@ impl Returning {
         }
         let settings = self.history.present().clone();
         if self.is_as_left(&state.settings) {
-            state.history = self.history.map(Step::of);
+            let unit = state.asked_unit();
+            state.history = self.history.map(|settings| Step::of(settings, unit));
         }
         state.settings.keep = settings.keep;
     }
@@ -153,7 +154,7 @@ impl Recovery {
         let Session { surface, history, eye, keeps_surface, tries, axes, mappings, .. } = session.clone();
         trial.set_known_mappings(mappings);
         state.settings = history.present().clone();
-        state.history = history.map(Step::of);
+        state.history = history.map(|settings| Step::of(settings, None));
         let is_kept = keeps_surface && matches!(surface, Some(Surface::File { .. }));
         let is_given_up = is_kept && tries >= TRIES;
         let returning = surface.map(|surface| Returning { surface, eye, history, is_given_up });

@@ -175,7 +175,7 @@ fn ask_for(digits: ShortDigest, state: &mut State) {
 
 /// The settings in force.
 fn shared(state: &State) -> SharedSettings {
-    SharedSettings { unit: asked_unit(state), settings: state.settings.clone() }
+    SharedSettings { unit: state.asked_unit(), settings: state.settings.clone() }
 }
 
 /// Brings settings into force; where the piece that they keep is not there, the one that is kept stays.
@@ -234,13 +234,5 @@ fn surface(state: &State) -> Option<SharedSurface> {
         source @ Source::Sample { .. } => source.usual_sample().map(SharedSurface::Sample),
         Source::File { .. } => document.digest.map(|digest| SharedSurface::File(digest.short())),
         Source::Made { .. } => None,
-    }
-}
-
-/// The unit that was asked for when the file was opened.
-fn asked_unit(state: &State) -> Option<Unit> {
-    match &state.document.as_ref()?.source {
-        Source::File { options, .. } => options.unit,
-        Source::Sample { .. } | Source::Made { .. } => None,
     }
 }

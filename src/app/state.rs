@@ -30,12 +30,14 @@ pub struct Step {
     pub settings: Settings,
     /// What was measured on the surface.
     pub measures: Arc<Vec<Measure>>,
+    /// The unit that was chosen for the numbers of the open file.
+    pub unit: Option<Unit>,
 }
 
 impl Step {
-    /// These settings, with nothing measured.
-    pub fn of(settings: &Settings) -> Self {
-        Self { settings: settings.clone(), measures: Arc::default() }
+    /// These settings, with nothing measured, in a unit that was chosen.
+    pub fn of(settings: &Settings, unit: Option<Unit>) -> Self {
+        Self { settings: settings.clone(), measures: Arc::default(), unit }
     }
 }
 
@@ -118,6 +120,8 @@ struct Opening {
     source: Source,
     /// The settings it begins with.
     settings: Settings,
+    /// What was measured on it when it was open before.
+    measures: Arc<Vec<Measure>>,
 }
 
 /// What was open before, and what belongs to it.
@@ -148,7 +152,7 @@ impl Default for State {
     fn default() -> Self {
         let settings = Settings::default();
         Self {
-            history: History::new(Step::of(&settings)),
+            history: History::new(Step::of(&settings, None)),
             measures: Arc::default(),
             sample_triangles: None,
             sent: settings.clone(),
@@ -248,29 +252,37 @@ impl State {
 
     /// Notes what stands now as a step to undo, if it is another than before.
     pub fn record(&mut self) {
-        let now = Step { settings: self.settings.clone(), measures: self.measures.clone() };
+        let now = self.step();
         self.history.record(&now);
     }
 
-    /// Goes one step back.
-    pub fn undo(&mut self) {
+    /// What stands now, as a step.
+    fn step(&self) -> Step {
+        Step { measures: self.measures.clone(), ..Step::of(&self.settings, self.asked_unit()) }
+    }
+
+    /// Goes one step back. A file that was read in another unit then is read in it again.
+    pub fn undo(&mut self, link: &mut dyn Link) {
         // A value that was typed a moment ago may not be a step yet.
         self.record();
         if let Some(step) = self.history.undo().cloned() {
-            self.take(step);
+            self.take(step, link);
         }
     }
 
     /// Takes back the last step back.
-    pub fn redo(&mut self) {
+    pub fn redo(&mut self, link: &mut dyn Link) {
         self.record();
         if let Some(step) = self.history.redo().cloned() {
-            self.take(step);
+            self.take(step, link);
         }
     }
 
-    fn take(&mut self, Step { settings, measures }: Step) {
+    fn take(&mut self, Step { settings, measures, unit }: Step, link: &mut dyn Link) {
         (self.settings, self.measures) = (settings, measures);
+        if unit != self.asked_unit() {
+            self.set_unit(unit, link);
+        }
     }
 
     /// Shows the level that the settings ask for.

@@ -7,6 +7,7 @@ use tabled::settings::{Alignment, Style};
 use super::rows::row;
 use crate::pipeline::report::Report;
 use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread};
+use lumen_message::signed;
 
 /// Prints the table.
 pub(super) fn print(report: &Report) {
@@ -46,7 +47,7 @@ const NUMBERS: usize = 9;
 fn of(branch: &BranchCalibre) -> [String; HEADS.len()] {
     let none = || "-".to_owned();
     let mean = |of: &OnSurface| of.radius_mm.map_or_else(none, |radius| format!("{:.3}", radius.mean));
-    let change = |of: &OnSurface| of.largest_change.map_or_else(none, |change| format!("{:+.2}", change.percent));
+    let change = |of: &OnSurface| of.largest_change.map_or_else(none, |change| signed(change.percent, 2));
     let spread = |radius: Spread| format!("{:.3} ({:.2}-{:.2})", radius.mean, radius.least, radius.largest);
     let place = |change: Change| {
         let [x, y, z] = change.at_mm;

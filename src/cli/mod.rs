@@ -58,7 +58,7 @@ use clap::{CommandFactory as _, Parser, Subcommand};
     version,
     about = "Makes a blood-vessel surface light enough to simulate on. Not for clinical decisions.",
     after_help = "Without a subcommand a window opens, with FILE in it if there is one.\n\
-                  Wherever a file is read, sample:aorta or sample:coronary can stand for it.",
+                  Wherever a file is read, sample:aorta, sample:coronary or sample:aorta-nets can stand for it.",
     args_conflicts_with_subcommands = true
 )]
 pub struct Arguments {

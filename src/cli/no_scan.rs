@@ -6,7 +6,6 @@ use anyhow::{Error, Result, bail};
 
 use super::scan_options::ScanOptions;
 use crate::io::{Axes, Imported, ReadError};
-use crate::mesh::TriMesh;
 use crate::volume::LabelledSurface;
 
 /// What is said of a folder without surfaces: it may be a scan.
@@ -52,7 +51,7 @@ impl Opened {
     }
 
     /// There is none.
-    pub(super) fn print_threshold(&self, _: &ScanOptions, _: &TriMesh) -> Result<()> {
+    pub(super) fn print_half_way(&self, _: &ScanOptions) -> Result<()> {
         match *self {}
     }
 

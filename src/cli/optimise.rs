@@ -11,7 +11,7 @@ use super::mend::mended_rows;
 use super::misuse::misuse;
 use super::outputs::{Outcome, Outputs, told_with_remedies};
 use super::places::{output_format, write_whole};
-use super::rows::{row, shape_rows};
+use super::rows::{row, shape_rows, threshold_rows};
 use super::running::advance;
 use super::scan_options::ScanOptions;
 use super::settings::{Asked, SettingsOptions};
@@ -24,6 +24,7 @@ use crate::pipeline::verdict::Verdict;
 use crate::sharing::{SharedSettings, write_settings};
 use crate::task::milliseconds;
 use crate::vessel::width::Narrowest;
+use lumen_message::signed;
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
 #[derive(Debug, Args)]
@@ -158,6 +159,7 @@ impl Optimise {
     fn print(&self, report: &Report, verdict: &Verdict, unit: Unit) {
         let (kept, output) = (report.after_connectivity, report.output);
         row("triangles in file", report.opened.triangles);
+        report.threshold.into_iter().for_each(threshold_rows);
         if let Some(done) = &report.mending {
             mended_rows(done);
         }
@@ -206,10 +208,10 @@ impl Optimise {
             row("deviation from original", format!("{:.4} mm mean, {:.4} mm max", deviation.mean, deviation.max));
         }
         if let Some(change) = report.volume_change_percent {
-            row("volume change", format!("{change:+.3} %"));
+            row("volume change", format!("{} %", signed(change, 3)));
         }
         if let Some(change) = report.area_change_percent {
-            row("area change", format!("{change:+.3} %"));
+            row("area change", format!("{} %", signed(change, 3)));
         }
         if let Some(shape) = &report.output_shape {
             shape_rows(shape);

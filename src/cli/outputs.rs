@@ -83,7 +83,7 @@ impl Outputs<'_> {
         let mut report = Report::new(name, &pipeline).context("the pipeline ended without a result")?;
         report.stages_ms.read = read;
         report.axes = to;
-        report.unit = Some(unit);
+        (report.unit, report.threshold) = (Some(unit), import.threshold);
         report.stages_ms.write = milliseconds(start);
         let verdict = Verdict::of_run(&pipeline, &report, &import, Format::from_name(name).is_some());
         report.verdict = Some(Box::new(VerdictReport::from(&verdict)));

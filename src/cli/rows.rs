@@ -1,13 +1,22 @@
 //! What several subcommands print: a line for each number.
 
+use crate::io::ThresholdReport;
 use crate::mesh::ArrayInfo;
 use crate::mesh::arrays::{Association, Kind};
 use crate::pipeline::shape::Shape;
 use crate::vessel::width::Narrowest;
+use lumen_message::signed;
 
 /// A row of a table: what it is, padded, and how much.
 pub(super) fn row(what: &str, how_much: impl std::fmt::Display) {
     println!("{what:<27} {how_much}");
+}
+
+/// The rows of what the threshold of a scan comes to.
+pub(super) fn threshold_rows(ThresholdReport { value, lower_mm, higher_mm }: ThresholdReport) {
+    row("threshold", format!("{value:.1}"));
+    row("threshold 10 % lower", format!("wall {} mm", signed(lower_mm, 3)));
+    row("threshold 10 % higher", format!("wall {} mm", signed(higher_mm, 3)));
 }
 
 /// A row for each array: its name, what it is on, its type, and its range.

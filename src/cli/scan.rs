@@ -10,12 +10,11 @@ use super::misuse::misuse;
 use super::rows::row;
 use super::scan_options::{ScanOptions, SurfaceMethod};
 use crate::io::volume::{self, Part};
-use crate::io::{Axes, Imported, Offer, ReadError, Warning, import_mesh, in_english};
-use crate::mesh::TriMesh;
+use crate::io::{Axes, Imported, Offer, ReadError, ThresholdReport, Warning, import_mesh, in_english};
 use crate::task::{Yielder, at_once};
 use crate::volume::{
     Cut, Grid, HalfWay, Label, LabelledSurface, Method, PRESETS, Relaxation, Selection, Survey, VolumeError, half_way,
-    shifts_mm, surface_in_slices, surface_nets, survey,
+    surface_in_slices, surface_nets, survey,
 };
 
 /// What is said of a folder without surfaces: it may be a scan.
@@ -122,7 +121,8 @@ impl Opened {
                 return Err(misuse("--surface-by nets is for masks: a threshold lies between voxels"));
             }
             Some(SurfaceMethod::Nets) => Method::SurfaceNets,
-            Some(SurfaceMethod::Cubes) | None => Method::MarchingCubes,
+            Some(SurfaceMethod::Cubes) => Method::MarchingCubes,
+            None => Method::of(selection),
         };
         Ok((Cut { selection, region: options.region, seed, method }, found))
     }
@@ -130,8 +130,8 @@ impl Opened {
     /// The borders of all labels where the options ask for these.
     pub(super) fn borders(&self, options: &ScanOptions) -> Result<Option<LabelledSurface>> {
         let (cut, _) = self.cut(options)?;
-        let asked = (cut.method, cut.selection, options.seed);
-        if asked != (Method::SurfaceNets, Selection::AnyLabel, None) || self.survey.labels.len() < 2 {
+        let asked = (options.surface_by, cut.selection, options.seed);
+        if asked != (Some(SurfaceMethod::Nets), Selection::AnyLabel, None) || self.survey.labels.len() < 2 {
             return Ok(None);
         }
         Ok(Some(surface_nets(&self.grid, Selection::EachLabel, cut.region, Relaxation::default())?))
@@ -142,15 +142,10 @@ impl Opened {
         self.axes
     }
 
-    /// Prints the threshold of a surface in the axes of the scan, and by how much another would move it.
-    pub(super) fn print_threshold(&self, options: &ScanOptions, mesh: &TriMesh) -> Result<()> {
-        let (cut, found) = self.cut(options)?;
-        if let Some(HalfWay { threshold, vessel, background }) = found {
-            row("threshold", format!("{threshold:.1}, half way from {vessel:.1} to {background:.1}"));
-        }
-        if let Some([lower, higher]) = shifts_mm(&self.grid, mesh, cut.selection) {
-            row("threshold 10 % lower", format!("wall {lower:+.3} mm"));
-            row("threshold 10 % higher", format!("wall {higher:+.3} mm"));
+    /// Prints the values that the threshold lies half way between, if it was found so.
+    pub(super) fn print_half_way(&self, options: &ScanOptions) -> Result<()> {
+        if let (_, Some(HalfWay { vessel, background, .. })) = self.cut(options)? {
+            row("half way", format!("from {vessel:.1} to {background:.1}"));
         }
         Ok(())
     }
@@ -159,7 +154,9 @@ impl Opened {
     pub(super) fn surface(&self, options: &ScanOptions) -> Result<Imported> {
         let (cut, _) = self.cut(options)?;
         let mesh = at_once(surface_in_slices(&self.grid, cut, &Yielder::never()))?;
+        let threshold = ThresholdReport::new(&self.grid, &mesh, cut.selection);
         let mut imported = import_mesh(mesh, self.format);
+        imported.report.threshold = threshold;
         imported.report.axes = self.axes;
         imported.report.warnings.splice(..0, self.warnings.iter().cloned());
         Ok(imported)

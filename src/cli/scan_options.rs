@@ -34,9 +34,10 @@ pub(super) struct ScanOptions {
 /// How the surface of a mask is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum SurfaceMethod {
-    /// Marching cubes: the steps of the voxels stay (this is what is done without --surface-by)
+    /// Marching cubes: the steps of the voxels stay
     Cubes,
-    /// Surface nets: relaxed within each voxel; `lumen surface` without --label makes the borders of all labels
+    /// Surface nets: relaxed within each voxel, as without --surface-by; where it is said, `lumen surface` without --label makes
+    /// the borders of all labels
     Nets,
 }
 

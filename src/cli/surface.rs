@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 
 use super::places::{self, output_format, write_whole};
-use super::rows::row;
+use super::rows::{row, threshold_rows};
 use super::scan;
 use super::scan_options::ScanOptions;
 use crate::io::{self, Axes, Format, Imported};
@@ -53,7 +53,8 @@ impl Surface {
         row("largest component", format!("{} triangles", report.largest_component_triangles));
         row("size", format!("{:.3} x {:.3} x {:.3} mm", size.x, size.y, size.z));
         row("axes", report.axes);
-        opened.print_threshold(&self.scan, &mesh)?;
+        report.threshold.into_iter().for_each(threshold_rows);
+        opened.print_half_way(&self.scan)?;
         row("written to", self.output.display());
         Ok(())
     }

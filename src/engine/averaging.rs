@@ -90,6 +90,7 @@ mod tests {
             mesh: Arc::new(mesh.clone()),
             axes: Axes::Unknown,
             warnings: Vec::new(),
+            threshold: None,
         };
         engine.handle(Command::Open { id: 1, source, settings: Settings { keep, ..Settings::default() } });
         engine.handle(Command::Average { id: 2, passes: 100 });

@@ -285,7 +285,7 @@ mod tests {
 
     use super::*;
     use crate::engine::Engine;
-    use crate::io::{ImportOptions, ScanWarning};
+    use crate::io::{ImportOptions, ScanWarning, ThresholdReport};
     use crate::phantom::Sample;
     use crate::pipeline::settings::Keep;
     use crate::transfer::sent;
@@ -308,6 +308,7 @@ mod tests {
             mesh: Arc::new(sphere),
             axes: Axes::Lps,
             warnings: vec![ScanWarning::Silent { format: "DICOM".into() }.into()],
+            threshold: Some(ThresholdReport { value: 180.0, lower_mm: 0.1, higher_mm: -0.1 }),
         };
         let holed = crate::mesh::shapes::icosphere(3, 30.0, glam::Vec3::ZERO).filtered(|t| t != 7);
         let holed = Source::Made {
@@ -316,6 +317,7 @@ mod tests {
             mesh: Arc::new(holed),
             axes: Axes::Unknown,
             warnings: Vec::new(),
+            threshold: None,
         };
         let mending = crate::pipeline::settings::Mending { fill_mm: Some(50.0), ..Default::default() };
         let settings = Settings::default();

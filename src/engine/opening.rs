@@ -53,7 +53,7 @@ impl Opening {
 }
 
 async fn read(source: Source, name: &str, yielder: &Yielder) -> Result<Read, String> {
-    let (mesh, format, axes, warnings) = match source {
+    let (mesh, format, axes, warnings, threshold) = match source {
         Source::File { bytes, options, .. } => {
             let mut digesting = Digesting::default();
             for block in blocks(bytes.len(), BLOCK) {
@@ -67,13 +67,17 @@ async fn read(source: Source, name: &str, yielder: &Yielder) -> Result<Read, Str
             let read = read_in_slices(bytes, name, &options, &yielder.part(DIGESTED..1.0)).await;
             return read.map(|imported| Read { imported, digest }).map_err(|error| tell(&error));
         }
-        Source::Made { format, mesh, axes, warnings, .. } => (Arc::unwrap_or_clone(mesh), format, axes, warnings),
+        Source::Made { format, mesh, axes, warnings, threshold, .. } => {
+            (Arc::unwrap_or_clone(mesh), format, axes, warnings, threshold)
+        }
         Source::Sample { sample, triangles } => {
             let mesh = phantom::generate(sample, triangles as usize).map_err(|error| tell(&error))?;
-            (mesh, "sample".to_owned(), Axes::Lps, Vec::new())
+            (mesh, "sample".to_owned(), Axes::Lps, Vec::new(), None)
         }
     };
-    Ok(Read { imported: import_made(mesh, format, axes, warnings, yielder).await, digest: None })
+    let mut imported = import_made(mesh, format, axes, warnings, yielder).await;
+    imported.report.threshold = threshold;
+    Ok(Read { imported, digest: None })
 }
 
 #[cfg(test)]

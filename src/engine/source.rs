@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::surfaces::surface;
-use crate::io::{Axes, ImportOptions, Warning};
+use crate::io::{Axes, ImportOptions, ThresholdReport, Warning};
 use crate::language::tell;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
@@ -45,6 +45,8 @@ pub enum Source {
         axes: Axes,
         /// What looked odd about the scan.
         warnings: Vec<Warning>,
+        /// How it hangs on its threshold; none of a mask.
+        threshold: Option<ThresholdReport>,
     },
 }
 
@@ -60,6 +62,11 @@ impl Source {
             Self::Sample { sample, triangles } if triangles as usize == sample.default_triangles() => Some(sample),
             _ => None,
         }
+    }
+
+    /// Whether both are one file, in whatever units it is read.
+    pub fn is_same_file(&self, other: &Self) -> bool {
+        matches!((self, other), (Self::File { bytes, .. }, Self::File { bytes: of, .. }) if Arc::ptr_eq(bytes, of))
     }
 
     /// What the surface is called, whatever is spoken: files are named by it.

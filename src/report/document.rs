@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::picture::Picture;
 use super::plot::{Plot, radius, response};
 use super::words::{others, said};
-use crate::io::{Axes, ImportReport};
+use crate::io::{Axes, ImportReport, ThresholdReport};
 use crate::language::{decimal, exact, grouped, inner, signed, tell};
 use crate::pipeline::report::{AutoReport, Report};
 use crate::pipeline::settings::{Keep, Preset, Settings, Target};
@@ -173,7 +173,11 @@ fn file(subject: &Subject<'_>) -> Vec<Row> {
     let opened = &report.opened;
     let fingerprint = digest.map_or_else(|| say!("report-no-fingerprint"), |digest| digest.to_string());
     let [x, y, z] = [bounds.x, bounds.y, bounds.z].map(|length| decimal(length, 1));
-    vec![
+    let threshold = import.threshold.map(|ThresholdReport { value, lower_mm, higher_mm }| {
+        let [lower, higher] = [lower_mm, higher_mm].map(|mm| signed(mm, 2));
+        (say!("report-threshold"), say!("report-threshold-moves", value = exact(value), lower = lower, higher = higher))
+    });
+    let rows = [
         (say!("report-fingerprint"), fingerprint),
         (
             say!("report-format"),
@@ -185,7 +189,8 @@ fn file(subject: &Subject<'_>) -> Vec<Row> {
             say!("report-axes"),
             if report.axes == Axes::Unknown { say!("report-axes-unknown") } else { report.axes.to_string() },
         ),
-    ]
+    ];
+    rows.into_iter().chain(threshold).collect()
 }
 
 /// What was mended, on request.

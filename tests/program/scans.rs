@@ -73,13 +73,23 @@ fn a_mask_is_relaxed_by_surface_nets_around_a_seed() {
     let (mask, out) = (folder.file("mask.mha"), folder.file("out.vtp"));
     std::fs::write(&mask, ball(Some(3))).unwrap();
     let nets = ["surface", &mask, "--surface-by", "nets", "-o", &out];
+    let of_threshold = lumen(&["surface", &mask, "--threshold", "2", "--surface-by", "nets", "-o", &out]);
+    assert_eq!(of_threshold.status.code(), Some(2));
     for arguments in [&nets[..], &[&nets[..], &["--seed", "5,-20,100"]].concat()] {
         succeed(arguments);
         let surface: Value = serde_json::from_str(&succeed(&["inspect", &out, "--json"])).unwrap();
         assert_eq!((&surface["components"], &surface["boundary_edges"]), (&1.into(), &0.into()));
         let ratio = surface["volume_mm3"].as_f64().unwrap() / (4.0 / 3.0 * std::f64::consts::PI * 1000.0);
-        assert!((0.95..1.01).contains(&ratio), "{ratio}");
+        assert!((0.985..1.01).contains(&ratio), "{ratio}");
     }
+    // A mask starts from them, and from marching cubes where these are asked for.
+    let made = |by: &[&str]| {
+        succeed(&[&["surface", &mask, "--label", "3", "-o", &out], by].concat());
+        let surface: Value = serde_json::from_str(&succeed(&["inspect", &out, "--json"])).unwrap();
+        surface["roughness"]["rms_deg"].as_f64().unwrap()
+    };
+    let [cubes, nets_too, default] = [&["--surface-by", "cubes"][..], &["--surface-by", "nets"], &[]].map(made);
+    assert!(default == nets_too && default < 0.8 * cubes, "{default}, {nets_too}, {cubes}");
     // Outside of the ball nothing is connected.
     assert_eq!(lumen(&[&nets[..], &["--seed", "-9,-20,100"]].concat()).status.code(), Some(1));
     // The way of the reduction has the name --method.
@@ -98,6 +108,17 @@ fn how_far_another_threshold_moves_the_wall_is_told() {
         let shift: f64 = line.split_whitespace().rev().nth(1).unwrap().parse().unwrap();
         assert!((shift - exact).abs() < 0.02, "{line}");
     }
+    let (report, page) = (folder.file("report.json"), folder.file("page.html"));
+    succeed(&["optimise", &scan, "--threshold", "100", "-o", &out, "--reduction", "50", "--report", &report]);
+    let told = &json(&report)["threshold"];
+    assert_eq!(told["value"], 100.0);
+    for (which, exact) in [("lower_mm", 0.5), ("higher_mm", -0.5)] {
+        assert!((told[which].as_f64().unwrap() - exact).abs() < 0.02, "{told}");
+    }
+    succeed(&["report", &scan, "--threshold", "100", "--no-pictures", "-o", &page]);
+    let page = std::fs::read_to_string(&page).unwrap();
+    let [_, row] = page.split("Threshold").collect::<Vec<_>>()[..] else { panic!("a row of its threshold") };
+    assert!(row.contains("100; 10 % lower the wall lies +0.") && row.contains("10 % higher -0."), "{row}");
 }
 
 #[test]

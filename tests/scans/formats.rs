@@ -409,3 +409,13 @@ fn what_ends_early_or_is_damaged_is_refused_in_pieces_too() {
         assert!(in_pieces(&files, 600).is_err(), "{what}");
     }
 }
+
+/// What a file is does not depend on how much of it is known: its first element says it, and no word behind that.
+#[test]
+fn a_file_beside_a_volume_is_none_by_a_word_far_behind_its_beginning() {
+    let surface = format!("<VTKFile type=\"PolyData\">{}<Array Name=\"ImageData\"/>", " ".repeat(1500));
+    let nifti = [Nifti::first(false, true, b"n+1\0", 352.0), little()].concat();
+    let files = [("a.vtp", surface.into_bytes()), ("a.nii", nifti)];
+    assert_is_it(&open(&files).unwrap(), "whole");
+    assert_is_it(&in_pieces(&files, 1024).unwrap().unwrap(), "in pieces");
+}

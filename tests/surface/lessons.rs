@@ -10,7 +10,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use lumen::app::lesson::{LESSONS, Lesson, Step};
 use lumen::language::{Key, Language, built_in, speak};
-use lumen::mesh::{Topology, TriMesh, boundary_loops, roughness, self_intersections};
+use lumen::mesh::{Topology, TriMesh, boundary_loops, roughness, self_intersections, volume};
 use lumen::phantom::{Sample, generate, vessels};
 use lumen::pipeline::classes::{Class, Classes};
 use lumen::pipeline::filter::Filter;
@@ -51,6 +51,8 @@ use Truth::{Holds, Is};
 struct Seen<'a> {
     /// What settings change is computed from what is there.
     default: &'a Pipeline,
+    /// The same of the sample that marching cubes have made.
+    cubes: &'a Pipeline,
     settings: Settings,
     pipeline: OnceCell<Pipeline>,
 }
@@ -149,7 +151,72 @@ fn around(name: &str) -> f64 {
     PI * diameters.iter().sum::<f64>() / diameters.len() as f64
 }
 
+/// The volume of what is kept, open ends closed.
+fn enclosed(pipeline: &Pipeline) -> f64 {
+    let mesh = &pipeline.kept().unwrap().mesh;
+    volume(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles))
+}
+
+/// The mean radii of the arteries that leave the aorta, with the filter, in mm; the largest first.
+fn arteries(pipeline: &Pipeline) -> Vec<f64> {
+    let certificate = &pipeline.certified().unwrap().as_ref().unwrap().certificate;
+    let mut radii: Vec<f64> =
+        certificate.branches.iter().filter_map(|branch| branch.smoothed.radius_mm).map(|of| of.mean).collect();
+    radii.retain(|&radius| radius < AORTA.start);
+    radii.sort_by(|a, b| b.total_cmp(a));
+    radii
+}
+
 const CLAIMS: &[Claim] = &[
+    Claim {
+        at: ("nets", 0),
+        says: ["half way between", "auf halbem Weg zwischen", "à mi-chemin entre"],
+        // Along one axis half way, along the others on a voxel.
+        truth: Holds(|seen| {
+            let mesh = &**seen.default.opened();
+            let [point, slice] = seen.voxel();
+            let first = mesh.positions[0].as_dvec3();
+            let halves = |p: &Vec3| (p.as_dvec3() - first).to_array().map(|along| 2.0 * along);
+            let steps = mesh.positions.iter().map(|p| {
+                let [x, y, z] = halves(p);
+                [x / point, y / point, z / slice].map(|step| (step - step.round()).abs())
+            });
+            let off = steps.flatten().fold(0.0, f64::max);
+            holds(off < 0.01, off)
+        }),
+    },
+    Claim {
+        at: ("nets", 1),
+        says: [
+            "less rough before any filter",
+            "weniger rau, noch vor jedem Filter",
+            "moins rugueuse avant tout filtre",
+        ],
+        truth: Holds(|seen| {
+            let rough = |mesh: &TriMesh| {
+                roughness(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles)).unwrap().rms_deg
+            };
+            let [nets, cubes] = [seen.level(), &seen.cubes.kept().unwrap().mesh].map(rough);
+            holds(nets < 0.8 * cubes, (nets, cubes))
+        }),
+    },
+    Claim {
+        at: ("nets", 1),
+        says: ["by less than 1 %", "um weniger als 1 %", "de moins de 1 %"],
+        truth: Holds(|seen| {
+            let ratio = enclosed(seen.default) / enclosed(seen.cubes);
+            holds((ratio - 1.0).abs() < 0.01, ratio)
+        }),
+    },
+    Claim {
+        at: ("nets", 2),
+        says: ["to within 1 %", "auf 1 %", "à 1 % près"],
+        truth: Holds(|seen| {
+            let [nets, cubes] = [seen.default, seen.cubes].map(arteries);
+            let off = nets.iter().zip(&cubes).map(|(nets, cubes)| (nets / cubes - 1.0).abs()).fold(0.0, f64::max);
+            holds(nets.len() == 4 && cubes.len() == 4 && off < 0.01, (off, nets, cubes))
+        }),
+    },
     Claim {
         at: ("stair-steps", 0),
         says: [
@@ -303,6 +370,22 @@ const CLAIMS: &[Claim] = &[
         truth: Holds(|seen| {
             let changes = seen.changes(ILIAC);
             holds(changes.len() == 2 && changes.iter().all(|change| (-60.0..-40.0).contains(change)), changes)
+        }),
+    },
+    Claim {
+        at: ("pass-band", 3),
+        says: [
+            "branches 4 and 5, the renal arteries, and 1 and 7, the iliac arteries",
+            "Äste 4 und 5, der Nierenarterien, und 1 und 7, der Beckenarterien",
+            "branches 4 et 5, les artères rénales, et 1 et 7, les artères iliaques",
+        ],
+        truth: Holds(|seen| {
+            let mean =
+                |number: usize| seen.certificate().branches[number - 1].opened.radius_mm.map_or(0.0, |of| of.mean);
+            let found = [4, 5, 1, 7].map(mean);
+            let [renal, iliac] = [&found[..2], &found[2..]];
+            let is_so = renal.iter().all(|of| RENAL.contains(of)) && iliac.iter().all(|of| ILIAC.contains(of));
+            holds(is_so, found)
         }),
     },
     Claim {
@@ -653,14 +736,24 @@ fn each_claim_is_said_in_all_languages_and_each_number_is_a_setting_or_part_of_o
 
 #[test]
 fn what_the_lessons_claim_is_so() {
-    let opened = Arc::new(generate(Sample::Aorta, Sample::Aorta.default_triangles()).unwrap());
-    let mut default = Pipeline::new(opened, Settings::default()).with_certificate();
-    default.finish().unwrap();
+    let defaults = [Sample::Aorta, Sample::AortaNets].map(|sample| {
+        let opened = Arc::new(generate(sample, sample.default_triangles()).unwrap());
+        let mut default = Pipeline::new(opened, Settings::default()).with_certificate();
+        default.finish().unwrap();
+        default
+    });
+    let [cubes, nets] = &defaults;
     let [english, ..] = lessons();
     let mut wrong = Vec::new();
     for (name, lesson) in english {
+        let mut default = cubes;
         for (i, step) in lesson.steps.into_iter().enumerate() {
-            let seen = Seen { default: &default, settings: step.settings.unwrap(), pipeline: OnceCell::new() };
+            match step.sample {
+                Some(Sample::AortaNets) => default = nets,
+                Some(_) => default = cubes,
+                None => {}
+            }
+            let seen = Seen { default, cubes, settings: step.settings.unwrap(), pipeline: OnceCell::new() };
             for claim in CLAIMS.iter().filter(|claim| claim.at == (name, i)) {
                 let found = match claim.truth {
                     Holds(holds) => holds(&seen),

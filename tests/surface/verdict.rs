@@ -9,8 +9,8 @@ use lumen::io::{Format, ImportOptions, read, write};
 use lumen::mesh::TriMesh;
 use lumen::pipeline::report::Report;
 use lumen::pipeline::run::Pipeline;
-use lumen::pipeline::settings::{Settings, Target};
-use lumen::pipeline::verdict::{FindingKind, Head, Verdict, VerdictReport};
+use lumen::pipeline::settings::{Settings, Smoothing, Target};
+use lumen::pipeline::verdict::{FindingKind, Head, Remedied, Remedy, Verdict, VerdictReport};
 
 use crate::smoothing::{tube, turned};
 
@@ -124,6 +124,26 @@ fn a_narrowing_is_a_note_with_its_degree_its_length_and_its_reference() {
     let text = finding.what.to_string();
     let told = format!("branch 1 is {percent:.0} % narrower over {length:.1} mm");
     assert!(text.contains(&told) && text.contains(" mm, by the diameters at "), "{text}");
+}
+
+#[test]
+fn where_nothing_is_smoothed_that_is_a_note_with_a_way_to_smooth() {
+    let import =
+        read(&write(&tube(3.0, 60.0, 0.7, 0.05), None, Format::Obj).unwrap(), "a.obj", &ImportOptions::default());
+    let import = import.unwrap();
+    let mesh = Arc::new(import.mesh);
+    for (smoothing, expected) in [(Smoothing::NONE, true), (Smoothing::AUTO, false)] {
+        let settings = Settings { smoothing, ..Settings::default() };
+        let mut pipeline = Pipeline::new(mesh.clone(), settings).with_samples(200);
+        pipeline.finish().unwrap();
+        let report = Report::new("a.obj", &pipeline).unwrap();
+        let found = Verdict::of_run(&pipeline, &report, &import.report, true);
+        let note = found.findings.iter().find(|finding| finding.what == FindingKind::NotSmoothed);
+        assert_eq!(note.is_some(), expected, "{found:?}");
+        let Some(note) = note else { continue };
+        let [Remedy { change: Remedied::Settings(settings), .. }] = &note.remedies[..] else { panic!("{note:?}") };
+        assert!(!note.is_grave && settings.smoothing == Smoothing::AUTO, "{note:?}");
+    }
 }
 
 #[test]

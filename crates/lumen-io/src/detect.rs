@@ -31,6 +31,9 @@ impl Volume {
 /// What a file packed by gzip begins with.
 pub(super) const GZIP: &[u8] = b"\x1f\x8b";
 
+/// Bytes of a file that say what it is, if it is not packed.
+pub(super) const SNIFFED: usize = 4096;
+
 /// Finds the kind of file, or says in a sentence why it is none that can be opened.
 pub(super) fn detect(bytes: &[u8], name: &str) -> Result<&'static FileKind, ReadError> {
     if bytes.is_empty() {
@@ -99,8 +102,7 @@ pub(super) fn volume(bytes: &[u8]) -> Option<Volume> {
     if behind_preamble(bytes).len() < bytes.len() || data_set(bytes).is_some() {
         return Some(Volume::Dicom);
     }
-    let head = text::beginning(bytes);
-    let head = &head[..head.len().min(4096)];
+    let head = text::beginning(&bytes[..bytes.len().min(SNIFFED)]);
     let contains = |word: &[u8]| head.windows(word.len()).any(|part| part == word);
     if vtk::is_legacy(head) {
         return legacy_kind(head)
@@ -108,10 +110,20 @@ pub(super) fn volume(bytes: &[u8]) -> Option<Volume> {
             .then_some(Volume::Vti);
     }
     if vtk::is_xml(head) {
-        return contains(b"\"ImageData\"").then_some(Volume::Vti);
+        return xml_kind(head).is_some_and(|kind| kind == b"ImageData").then_some(Volume::Vti);
     }
     let begins = [&b"ObjectType"[..], b"NDims", b"Comment"].iter().any(|word| head.starts_with(word));
     (begins && contains(b"DimSize")).then_some(Volume::MetaImage)
+}
+
+/// The type that the element `VTKFile` in the head of an XML file has.
+fn xml_kind(head: &[u8]) -> Option<&[u8]> {
+    let tag = head.windows(8).position(|part| part == b"<VTKFile")? + 8;
+    let tag = head[tag..].split(|&byte| byte == b'>').next()?;
+    let words = tag.split(|&byte| matches!(byte, b'"' | b'\'')).collect::<Vec<_>>();
+    let named =
+        |pair: &&[&[u8]]| pair[0].trim_ascii().strip_suffix(b"=").is_some_and(|name| name.trim_ascii() == b"type");
+    words.chunks_exact(2).find(named).map(|pair| pair[1])
 }
 
 /// The word behind `DATASET` in the head of a legacy VTK file, whose second line is a title of any words.
@@ -214,7 +226,9 @@ mod tests {
             assert!(!may_be_volume(legacy(title, "POLYDATA").as_bytes()));
         }
         let surface = b"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\">";
-        for head in [&surface[..], b"ply\nformat ascii 1.0\n", b"solid", b"PK\x03\x04", b"", b"{\"a\": 1}"] {
+        let named = b"<VTKFile type=\"PolyData\"><DataArray Name=\"ImageData\"/>";
+        assert!(may_be_volume(b"<VTKFile version='1.0' type = 'ImageData'>"));
+        for head in [&surface[..], named, b"ply\nformat ascii 1.0\n", b"solid", b"PK\x03\x04", b"", b"{\"a\": 1}"] {
             assert!(!may_be_volume(head), "{head:?}");
         }
     }

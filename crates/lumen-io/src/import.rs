@@ -172,6 +172,7 @@ impl Import {
             volume_mm3: measured.volume_mm3,
             bounds_mm: mesh.bounds(),
             moved_mm: ((DVec3::ZERO - self.raw.origin) * scale).to_array(),
+            threshold: None,
             skipped: self.raw.skipped,
             arrays: infos(&arrays),
             warnings: self.raw.warnings,
@@ -252,7 +253,7 @@ mod tests {
         let warnings = |size, unit| in_english(&import(soup(size), unit, Axes::Unknown).unwrap().report.warnings);
         assert_eq!(
             warnings(0.2, Unit::Millimetre)[0],
-            "The surface is 0.346 mm across, which is unusual for vessels: its numbers may be in m (346 mm)."
+            "The surface is 0.346 mm from corner to corner, which is unusual for vessels: its numbers may be in m (346 mm)."
         );
         assert!(warnings(3e-7, Unit::Millimetre)[0].ends_with("check its unit of length."));
         // In cm it would be 520 mm long and 84 mm wide.

@@ -44,7 +44,7 @@ pub use offer::{Offer, VolumeField};
 pub use output::Output;
 pub use places::{LeftOut, left_out};
 pub use reading::{read, read_in_slices};
-pub use report::{ImportReport, Imported, Skipped};
+pub use report::{ImportReport, Imported, Skipped, ThresholdReport};
 pub use size::{InUnits, Length, UnusualSize};
 pub use unit::{Unit, UnknownUnit};
 pub use warnings::{ArrayProblem, ScanWarning, Warning, in_english};

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::warnings::{Warning, in_english};
 use super::{Axes, Unit};
 use lumen_mesh::{Array, ArrayInfo, Bounds, TriMesh};
+use lumen_volume::{Grid, Selection, shifts_mm};
 
 /// A surface as it was read, and what is to be said about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,6 +72,9 @@ pub struct ImportReport {
     /// that 32-bit numbers would not hold its detail, and the file has more digits than they do.
     #[serde(default)]
     pub moved_mm: [f64; 3],
+    /// How it hangs on the threshold that it was made by; null of what was not made of a scan by one.
+    #[serde(default)]
+    pub threshold: Option<ThresholdReport>,
     /// The arrays that came with it.
     #[serde(default)]
     pub arrays: Vec<ArrayInfo>,
@@ -83,6 +87,26 @@ pub struct ImportReport {
 
 fn as_sentences<S: Serializer>(warnings: &[Warning], serializer: S) -> Result<S::Ok, S::Error> {
     in_english(warnings).serialize(serializer)
+}
+
+/// How the surface of a scan hangs on its threshold.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ThresholdReport {
+    /// The threshold, in the unit of the scan.
+    pub value: f64,
+    /// By how much the wall would move outwards at a threshold 10 % lower, in mm: the radii of all vessels on average.
+    pub lower_mm: f64,
+    /// The same at one 10 % higher, negative where it would move inwards.
+    pub higher_mm: f64,
+}
+
+impl ThresholdReport {
+    /// Of `mesh`, the surface of a selection of `grid` in the grid's own coordinates; `None` where that is no threshold.
+    pub fn new(grid: &Grid, mesh: &TriMesh, selection: Selection) -> Option<Self> {
+        let Selection::Threshold(value) = selection else { return None };
+        let [lower_mm, higher_mm] = shifts_mm(grid, mesh, selection)?;
+        Some(Self { value, lower_mm, higher_mm })
+    }
 }
 
 /// Parts of a file that are no surface and were left out, counted.

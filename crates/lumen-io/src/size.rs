@@ -30,21 +30,21 @@ messages! {
         "errors-size" Across {
             /// The diagonal in mm.
             across: Length,
-        } => "The surface is {across} mm across, which is unusual for vessels: check its unit of length.",
+        } => "The surface is {across} mm from corner to corner, which is unusual for vessels: check its unit of length.",
         /// The diagonal is unusual.
         "errors-size-units" AcrossInUnits {
             /// The diagonal in mm.
             across: Length,
             /// The units in which it would be usual, and what it would be.
             units: InUnits,
-        } => "The surface is {across} mm across, which is unusual for vessels: its numbers may be in {units}.",
+        } => "The surface is {across} mm from corner to corner, which is unusual for vessels: its numbers may be in {units}.",
         /// It is a piece of small vessels, or of large ones in another unit.
         "errors-size-small" Small {
             /// The diagonal in mm.
             across: Length,
             /// The other units, and what the diagonal would be.
             units: InUnits,
-        } => "The surface is {across} mm across: a piece of small vessels, or its numbers are in {units}.",
+        } => "The surface is {across} mm from corner to corner: a piece of small vessels, or its numbers are in {units}.",
         /// The calibre is unusual, which a wall with two sides has none of.
         "errors-calibre-units" Calibre {
             /// The mean calibre in mm.

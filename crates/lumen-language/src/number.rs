@@ -29,11 +29,9 @@ fn marked(text: String) -> String {
     }
 }
 
-/// As [`decimal`], with a plus where it is not below zero: +0.5.
+/// As [`decimal`], with a plus where it is above zero: +0.5.
 pub fn signed(number: impl Into<f64>, places: usize) -> String {
-    let number = number.into();
-    let plus = if number.is_sign_negative() { "" } else { "+" };
-    format!("{plus}{}", decimal(number, places))
+    marked(lumen_message::signed(number.into(), places))
 }
 
 /// What is typed as a number, with a decimal point or a decimal comma, whatever is spoken. Where both stand in it, or one of

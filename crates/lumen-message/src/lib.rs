@@ -6,7 +6,7 @@ mod value;
 use std::fmt;
 
 pub use told::Told;
-pub use value::{Signed, ToValue, Value, grouped};
+pub use value::{Signed, ToValue, Value, grouped, signed};
 
 /// Something to say to a user. Its `Display` is plain English.
 pub trait Message: fmt::Display {
@@ -30,7 +30,8 @@ pub type Signature = (&'static str, &'static [&'static str]);
 ///
 /// A variant is `"identifier" Name { field: Type, ... } => English`, where English is one of
 /// - a format string that names fields: `"{count} bytes are missing"`;
-/// - a plural by a field: `(count, "One byte is missing.", "{count} bytes are missing.")`;
+/// - a plural by a field: `(count, "One byte is missing.", "{count} bytes are missing.")`, which is written in groups of
+///   three digits;
 /// - a block that gives a `String` or `&str`, with the fields as references: `{ format!("{at:?}") }`.
 ///
 /// A number is written into translations with as many decimals as the field says in brackets (`width_mm: f64 [2]`), else
@@ -114,7 +115,12 @@ macro_rules! messages {
         )*)?
     };
     (@english $f:ident ($count:ident, $one:literal, $other:literal)) => {
-        if u64::try_from(*$count).is_ok_and(|count| count == 1) { write!($f, $one) } else { write!($f, $other) }
+        if u64::try_from(*$count).is_ok_and(|count| count == 1) {
+            write!($f, $one)
+        } else {
+            let $count = $crate::grouped($count);
+            write!($f, $other)
+        }
     };
     (@english $f:ident { $($code:tt)* }) => { $f.write_str({ $($code)* }.as_ref()) };
     (@english $f:ident $text:literal) => { write!($f, $text) };
@@ -157,6 +163,7 @@ mod tests {
         assert_eq!(line.values(), [("line", Value::Count(3)), ("problem", Value::Message(Box::new(inner.told())))]);
         assert_eq!(Sample::Many { count: 1 }.to_string(), "One hole.");
         assert_eq!(Sample::Many { count: 2 }.to_string(), "2 holes.");
+        assert_eq!(Sample::Many { count: 74_307 }.to_string(), "74,307 holes.");
         let wide = Sample::Wide { width_mm: 1.0 / 3.0 };
         assert_eq!(wide.to_string(), "0.33 mm wide.");
         assert_eq!(wide.values(), [("width_mm", Value::decimal(1.0 / 3.0, 2))]);
@@ -188,6 +195,7 @@ mod tests {
     fn numbers_are_grouped() {
         assert_eq!([grouped(0.25), grouped(-1234.5)], ["0.25", "-1,234.5"]);
         assert_eq!(0.1_f32.to_value(), Value::Number { value: 0.1, places: None });
+        assert_eq!([-0.04, 0.04, -0.05, 1.0].map(|number| signed(number, 1)), ["0.0", "0.0", "-0.1", "+1.0"]);
         assert_eq!([grouped(7), grouped(-1234), grouped(1_234_567)], ["7", "-1,234", "1,234,567"]);
     }
 

@@ -42,9 +42,16 @@ impl Value {
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
 pub struct Signed<const PLACES: u8>(pub f64);
 
+/// A number with its sign and so many decimals; what rounds to nothing has none: `+0.5`, `0.0`.
+pub fn signed(number: f64, places: usize) -> String {
+    let text = format!("{number:+.places$}");
+    let is_zero = text.chars().all(|c| "+-0.".contains(c));
+    if is_zero { text[1..].to_owned() } else { text }
+}
+
 impl<const PLACES: u8> fmt::Display for Signed<PLACES> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:+.places$}", self.0, places = usize::from(PLACES))
+        f.write_str(&signed(self.0, PLACES.into()))
     }
 }
 

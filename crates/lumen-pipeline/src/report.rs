@@ -14,7 +14,7 @@ use super::safe::{BranchSafe, NoSafeRate, Safe, Stop};
 use super::settings::{Settings, Target, reduction_percent};
 use super::shape::Shape;
 use super::verdict::VerdictReport;
-use lumen_io::{Axes, Unit};
+use lumen_io::{Axes, ThresholdReport, Unit};
 use lumen_mesh::arrays::infos;
 use lumen_mesh::mending::{FaultCounts, MendReport};
 use lumen_mesh::{ArrayInfo, Measures, TriMesh, components};
@@ -130,6 +130,10 @@ pub struct Report {
     /// The unit that the numbers of the file were taken in; set by whoever read it, null of what is no file.
     #[serde(default)]
     pub unit: Option<UnitReport>,
+    /// How the surface hangs on the threshold that it was made by; set by whoever read it, null of what was not made of a scan
+    /// by one.
+    #[serde(default)]
+    pub threshold: Option<ThresholdReport>,
     /// The settings that were used.
     pub settings: Settings,
     /// What was mended before connectivity; null where nothing was asked for.
@@ -293,6 +297,7 @@ impl Report {
             output_fingerprint: format!("{:016x}", reduced.fingerprint),
             axes: Axes::Unknown,
             unit: None,
+            threshold: None,
             settings: pipeline.settings().clone(),
             mending: entering.report,
             faults: pipeline.faults().map(|found| found.counts()),

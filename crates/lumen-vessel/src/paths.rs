@@ -19,6 +19,9 @@ pub const NONE: u32 = u32::MAX;
 /// tip; what is shorter is a bump, or the corner of a cap or rim. The mean is over the length: towards a corner the balls
 /// become ever smaller, and 2 diameters are more than any corner of 60 degrees or wider has.
 const DIAMETERS: f32 = 2.0;
+/// What is beside it counts as width, too: in the wedge between two walls, or along the rim of a cap, balls stand side by side,
+/// and each row of them is no vessel. It is looked at in these places of the branch's length, most of which decide.
+const BESIDE: [f32; 3] = [0.3, 0.5, 0.7];
 /// And it sticks out by this part of the radius that it comes out of.
 const STICKS_OUT_OF: f32 = 0.35;
 /// One that is half of a loop may be short: it sticks out by this many of its end's radii.
@@ -177,14 +180,17 @@ impl Graph {
                     let out = ways.length[end as usize] - ways.length[free[0] as usize]
                         + (first.centre.distance(trunk.centre) - trunk.radius).max(0.0);
                     let tip = self.balls[end as usize];
-                    let is_long = || out + tip.radius >= 2.0 * DIAMETERS * self.mean_radius(&free);
+                    // The mean radius that a branch of this length may have.
+                    let (mean, most) = (self.mean_radius(&free), (out + tip.radius) / (2.0 * DIAMETERS));
                     let is_loop = || {
                         out >= STICKS_OUT_LOOP * tip.radius && self.closes_loop(&ways, &covering.owner, &free, &trunk)
                     };
                     let is_branch = if is_open(&tip) {
                         out >= STICKS_OUT_OPEN * tip.radius
                     } else {
-                        out >= STICKS_OUT_OF * trunk.radius && (is_long() || is_loop())
+                        out >= STICKS_OUT_OF * trunk.radius
+                            && (most >= mean || is_loop())
+                            && self.is_tube(&free, mean.max(most))
                     };
                     if is_branch {
                         covering.add(self, found.paths.len(), &free);
@@ -211,6 +217,38 @@ impl Graph {
             from.centre.distance(trunk.centre) > from.radius + trunk.radius
         };
         balls.iter().any(|&ball| self.links(ball).iter().any(comes_from_elsewhere))
+    }
+
+    /// Whether in most places of a row of balls no linked ball stands farther beside it than `widest`.
+    fn is_tube(&self, balls: &[u32], widest: f32) -> bool {
+        let wide = BESIDE.iter().filter(|&&part| {
+            let i = (part * (balls.len() - 1) as f32).round() as usize;
+            let [before, ball, after] = [i.saturating_sub(1), i, (i + 1).min(balls.len() - 1)].map(|i| balls[i]);
+            let along = self.balls[after as usize].centre - self.balls[before as usize].centre;
+            self.reaches_beside(ball, along.normalize_or_zero(), widest)
+        });
+        2 * wide.count() <= BESIDE.len()
+    }
+
+    /// Whether by links, in the slab across `along` that is as thick as a ball, there is one more than `widest` from its middle.
+    fn reaches_beside(&self, ball: u32, along: Vec3, widest: f32) -> bool {
+        let Ball { centre, radius } = self.balls[ball as usize];
+        let mut seen = vec![ball];
+        let mut next = 0;
+        while let Some(&at) = seen.get(next) {
+            next += 1;
+            for &(other, ..) in self.links(at) {
+                let to = self.balls[other as usize].centre - centre;
+                let height = to.dot(along);
+                if height.abs() <= radius && !seen.contains(&other) {
+                    if (to - along * height).length() > widest {
+                        return true;
+                    }
+                    seen.push(other);
+                }
+            }
+        }
+        false
     }
 
     /// The mean radius along balls, by length.

@@ -74,6 +74,17 @@ fn the_corners_of_flat_caps_are_no_branches() {
     assert_eq!(Tree::new(&mesh).unwrap().branches().len(), 1);
 }
 
+/// A wall that drapes over what runs beside the vessel leaves a wedge at its side, which tapers to an edge.
+#[test]
+fn a_wedge_at_the_side_of_a_vessel_is_no_tree() {
+    let wedge = |p: DVec3| (0.2 * (15.0 - p.x) - p.y.abs()).min(9.0 - p.z.abs()).min(p.x);
+    let vessel = |p: DVec3| (5.0 - p.truncate().length()).min(30.0 - p.z.abs());
+    let inside = |p: DVec3| wedge(p).max(vessel(p));
+    let mesh = isosurface(DVec3::new(-7.0, -7.0, -32.0), DVec3::new(17.0, 7.0, 32.0), 0.5, inside);
+    let tree = Tree::new(&mesh).unwrap();
+    assert_eq!(tree.branches().len(), 1, "{:?}", tree.branches().iter().map(Branch::length_mm).collect::<Vec<_>>());
+}
+
 #[test]
 fn a_short_bridge_between_two_vessels_is_a_branch() {
     let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);

@@ -96,7 +96,7 @@ impl Variation {
         }
     }
 
-    /// As "1.80 of 6.00 mm, by the diameters at 18.0 and 51.0 mm".
+    /// As "1.80 in place of 6.00 mm, by the diameters at 18.0 and 51.0 mm".
     pub fn reference(&self) -> ReferenceText {
         let (diameter, reference) = (self.diameter_mm, self.reference_mm);
         match self.sides.map(|side| side.map(|side| side.abscissa_mm)) {
@@ -165,7 +165,7 @@ messages! {
             from: f64 [1],
             /// Arc length behind, in mm.
             to: f64 [1],
-        } => "{diameter:.2} of {reference:.2} mm, by the diameters at {from:.1} and {to:.1} mm",
+        } => "{diameter:.2} in place of {reference:.2} mm, by the diameters at {from:.1} and {to:.1} mm",
         /// From one side.
         "vessels-reference-at" At {
             /// The diameter, in mm.
@@ -174,14 +174,14 @@ messages! {
             reference: f64 [2],
             /// Arc length, in mm.
             at: f64 [1],
-        } => "{diameter:.2} of {reference:.2} mm, by the diameter at {at:.1} mm",
+        } => "{diameter:.2} in place of {reference:.2} mm, by the diameter at {at:.1} mm",
         /// From the whole line.
         "vessels-reference" Alone {
             /// The diameter, in mm.
             diameter: f64 [2],
             /// The reference, in mm.
             reference: f64 [2],
-        } => "{diameter:.2} of {reference:.2} mm",
+        } => "{diameter:.2} in place of {reference:.2} mm",
     }
 }
 

@@ -68,6 +68,14 @@ pub enum Method {
     SurfaceNets,
 }
 
+impl Method {
+    /// What a selection is made by unless another is asked for: surface nets of a mask. On masks of vessels of known radius they
+    /// are nearer to it than marching cubes, smoothed or not (docs/scans.md).
+    pub fn of(selection: Selection) -> Self {
+        if matches!(selection, Selection::Threshold(_)) { Self::MarchingCubes } else { Self::SurfaceNets }
+    }
+}
+
 impl Cut {
     /// A selection anywhere, by marching cubes.
     pub fn new(selection: Selection) -> Self {

@@ -3,7 +3,7 @@
 use crate::language::Key;
 
 /// Of each word a message: the word, a colon, what it means.
-const WORDS: [Key; 24] = [
+const WORDS: [Key; 25] = [
     Key("lesson-word-boundary-loop"),
     Key("lesson-word-calibre"),
     Key("lesson-word-chebyshev-polynomials"),
@@ -25,6 +25,7 @@ const WORDS: [Key; 24] = [
     Key("lesson-word-quadric"),
     Key("lesson-word-reduction-rate"),
     Key("lesson-word-simple-vertex"),
+    Key("lesson-word-surface-nets"),
     Key("lesson-word-topology"),
     Key("lesson-word-wavelength"),
     Key("lesson-word-window"),

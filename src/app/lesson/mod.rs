@@ -7,6 +7,7 @@ mod format;
 mod glossary;
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use egui::Ui;
 
@@ -26,13 +27,15 @@ use crate::engine::Source;
 use crate::language::Key;
 use crate::pipeline::settings::Settings;
 use crate::say;
+use crate::sharing::measures::Measure;
 
 /// What a lesson's file ends in.
 pub const ENDING: &str = "lesson";
 
 /// The lessons that come with Lumen: name in a link, title, and the text of its file.
-pub const LESSONS: [(&str, Key, Key); 6] = [
+pub const LESSONS: [(&str, Key, Key); 7] = [
     ("stair-steps", Key("lesson-stair-steps"), Key("lesson-stair-steps-text")),
+    ("nets", Key("lesson-nets"), Key("lesson-nets-text")),
     ("pass-band", Key("lesson-pass-band"), Key("lesson-pass-band-text")),
     ("windows", Key("lesson-windows"), Key("lesson-windows-text")),
     ("shrinkage", Key("lesson-shrinkage"), Key("lesson-shrinkage-text")),
@@ -53,8 +56,10 @@ pub struct Lessons {
 /// What a lesson sets, as the user had it before.
 #[derive(Clone, Debug)]
 pub(super) struct Stood {
-    /// The number of the surface.
-    pub(super) surface: Option<u64>,
+    /// The surface, and its number.
+    pub(super) surface: Option<(u64, Source)>,
+    /// What was measured on it.
+    pub(super) measures: Arc<Vec<Measure>>,
     pub(super) settings: Settings,
     pub(super) options: ViewOptions,
 }
@@ -137,7 +142,8 @@ impl Lessons {
         given.step = step.min(given.lesson.steps.len() - 1);
         given.is_answered = false;
         self.stood.get_or_insert_with(|| Stood {
-            surface: now.state.document.as_ref().map(|document| document.revision.document),
+            surface: now.state.document.as_ref().map(|open| (open.revision.document, open.source.clone())),
+            measures: now.state.measures.clone(),
             settings: now.state.settings.clone(),
             options: now.options,
         });
@@ -277,7 +283,7 @@ mod tests {
     use crate::language::{Language, built_in, speak};
 
     #[test]
-    fn the_six_lessons_can_be_read_and_are_called_as_the_menu_says() {
+    fn the_lessons_can_be_read_and_are_called_as_the_menu_says() {
         for (name, title, text) in LESSONS {
             let lesson = Lesson::read(text.say().as_bytes()).unwrap_or_else(|error| panic!("{name}: {error}"));
             assert_eq!(lesson.title, title.say());

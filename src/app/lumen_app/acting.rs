@@ -203,8 +203,8 @@ impl LumenApp {
             Action::Axes(axes) => self.recovery.choose_axes(state, axes),
             Action::SaveAxes(axes) => state.written_axes = axes,
             Action::Set(settings) => state.settings = *settings,
-            Action::Undo => state.undo(),
-            Action::Redo => state.redo(),
+            Action::Undo => state.undo(self.platform.link()),
+            Action::Redo => state.redo(self.platform.link()),
             Action::Cancel => {
                 let effect = state.cancel(self.platform.link());
                 self.take_effect(effect, ctx);
@@ -312,9 +312,7 @@ impl LumenApp {
             }
             lesson::Action::Close => {
                 Part::forget(ctx);
-                // A wire is in the level that the lesson has set.
-                let stood = self.panels.lesson.close().filter(|_| !self.panels.trial.trial.is_open());
-                if let Some(stood) = stood {
+                if let Some(stood) = self.panels.lesson.close() {
                     self.give_back(stood);
                 }
             }
@@ -324,8 +322,22 @@ impl LumenApp {
 
     /// Gives back what a lesson has changed, as a step to undo.
     fn give_back(&mut self, stood: lesson::Stood) {
-        let lesson::Stood { surface, settings, options } = stood;
-        let is_same = self.state.document.as_ref().map(|document| document.revision.document) == surface;
+        let lesson::Stood { surface, measures, settings, options } = stood;
+        let is_same = self.state.document.as_ref().map(|document| document.revision.document)
+            == surface.as_ref().map(|(number, _)| *number);
+        // A sample of the lesson gives way; a surface that was opened since stays.
+        if let Some((_, source)) = surface.filter(|_| !is_same && self.state.shows_sample()) {
+            self.views.options = options;
+            let name = source.label().into_owned();
+            self.state.record();
+            self.state.settings = Settings { keep: self.state.settings.keep, ..settings };
+            self.state.open_again(source, measures, self.platform.link());
+            return self.state.tell(&say!("lesson-given-back-surface", name = name));
+        }
+        // A wire is in the level that the lesson has set.
+        if self.panels.trial.trial.is_open() {
+            return;
+        }
         // Pieces of one surface are none of another.
         let keep = if is_same { settings.keep } else { self.state.settings.keep };
         let settings = Settings { keep, ..settings };

@@ -9,6 +9,8 @@ use crate::app::scan::{self, Told};
 use crate::app::sharing::{self, Sharing};
 use crate::app::state::{Effect, State};
 use crate::app::{keys, large, lesson, recovery, verdict};
+use crate::engine::Source;
+use crate::io::ThresholdReport;
 use crate::language::{decimal, tell};
 use crate::pipeline::verdict::Verdict;
 use crate::say;
@@ -148,9 +150,11 @@ impl LumenApp {
             && let Some(event) = link.poll()
         {
             match self.panels.scan.scans.receive(event, link) {
-                Some(Told::Made(source, shifts_mm)) => {
+                Some(Told::Made(source)) => {
+                    let threshold = if let Source::Made { threshold, .. } = &source { *threshold } else { None };
                     self.state.open(source, self.platform.link());
-                    if let Some([lower, higher]) = shifts_mm.map(|shifts| shifts.map(|mm| decimal(mm, 2))) {
+                    if let Some(ThresholdReport { lower_mm, higher_mm, .. }) = threshold {
+                        let [lower, higher] = [lower_mm, higher_mm].map(|mm| decimal(mm, 2));
                         self.state.tell(&say!("scan-shifts", lower = lower, higher = higher));
                     }
                 }

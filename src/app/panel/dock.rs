@@ -105,7 +105,8 @@ fn limit(ui: &mut Ui, state: &State, settings: &mut Settings, form: Form) {
     if settings.target.deviation_mm().is_some() {
         next_coarser(ui, state, settings);
     } else {
-        safe_row(ui, state.safe(), settings.tolerance_percent, &mut settings.target, form);
+        let shown = come_to(state, settings.target);
+        safe_row(ui, state.safe(), shown, settings, form);
     }
 }
 
@@ -123,8 +124,8 @@ fn next_coarser(ui: &mut Ui, state: &State, settings: &Settings) {
 }
 
 /// What is safe in words, and a way there. The row is there before it is known: what lies below must not move when it is.
-fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Target, form: Form) {
-    let mut help = say!("panel-safe-help", tolerance = tolerance);
+fn safe_row(ui: &mut Ui, safe: Option<&Safe>, shown: Target, settings: &mut Settings, form: Form) {
+    let mut help = say!("panel-safe-help", tolerance = settings.tolerance_percent);
     if let Some(why) = safe.and_then(|safe| safe.stopped_by.as_ref()) {
         help += &format!(" {}.", tell(why));
     }
@@ -151,9 +152,9 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
     let line = |ui: &mut Ui| ui.add(Label::new(RichText::new(rests).small()).truncate());
     let mut control = |ui: &mut Ui| {
         let go =
-            ui.add_enabled(wanted.is_some_and(|wanted| wanted != *target), egui::Button::new(say!("panel-go-there")));
+            ui.add_enabled(wanted.is_some_and(|wanted| wanted != shown), egui::Button::new(say!("panel-go-there")));
         if let Some(wanted) = wanted.filter(|_| go.on_hover_text(say!("panel-safe-go-help")).clicked()) {
-            *target = wanted;
+            settings.target = wanted;
         }
         ui.label(match (safe, percent) {
             (_, Some(percent)) => format!("{} %", decimal(percent, 1)),

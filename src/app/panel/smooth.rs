@@ -10,7 +10,6 @@ use crate::app::state::State;
 use crate::app::views::Views;
 use crate::app::{control, equations, response, theme};
 use crate::language::tell;
-use crate::pipeline::report::Report;
 use crate::pipeline::settings::table::{self, Kind};
 use crate::pipeline::settings::{Preset, Settings, Smoothing};
 use crate::say;
@@ -79,23 +78,29 @@ fn filter(ui: &mut Ui, settings: &mut Settings) {
     });
 }
 
-/// What is known of the surface.
-fn scale(report: Option<&Report>) -> response::Scale {
-    let edge_length = report.and_then(|report| report.smoothing_response).map(|response| response.edge_length_mm);
-    let lumen = report.and_then(|report| report.smoothed_shape.as_ref()?.smallest_lumen);
-    response::Scale { edge_length, thinnest: lumen.map(|lumen| lumen.diameter_mm) }
+/// What is known of the surface: the thinnest vessel is that of the surface as opened, whatever smoothing makes of it.
+fn scale(state: &State) -> response::Scale {
+    let document = state.document.as_ref();
+    let response = measured(document).and_then(|report| report.smoothing_response);
+    let calibre = document.and_then(|document| document.calibre.as_ref()?.found.as_ref().ok());
+    let radii =
+        calibre.iter().flat_map(|calibre| &calibre.branches).filter_map(|branch| branch.opened.inscribed_radius_mm);
+    response::Scale {
+        edge_length: response.map(|response| response.edge_length_mm),
+        thinnest: radii.map(|radius| 2.0 * radius.least).reduce(f64::min),
+    }
 }
 
 /// Shows what the filter lets through, large, for whoever presents.
 pub(in crate::app) fn present_response(ui: &mut Ui, state: &State) {
-    response::present(ui, &state.settings.smoothing, scale(measured(state.document.as_ref())));
+    response::present(ui, &state.settings.smoothing, scale(state));
 }
 
 /// What the filter lets through, and where less was smoothed.
 fn effect(ui: &mut Ui, smoothing: &Smoothing, state: &State, asked: &mut Vec<Action>) {
     let report = measured(state.document.as_ref());
     let mut shows_averaged = state.shows_averaged;
-    response::show(ui, smoothing, scale(report), &mut shows_averaged);
+    response::show(ui, smoothing, scale(state), &mut shows_averaged);
     if shows_averaged != state.shows_averaged {
         asked.push(Action::Average(shows_averaged));
     }

@@ -109,7 +109,9 @@ fn seed(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
 
 /// How the surface of a mask is made.
 fn method(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
-    row(ui, &say!("scan-method"), &say!("scan-method-help"), |ui| {
+    // Beside its label there is no room for both.
+    ui.label(say!("scan-method")).on_hover_text(say!("scan-method-help"));
+    ui.horizontal_wrapped(|ui| {
         for (method, text) in
             [(Method::SurfaceNets, say!("scan-surface-nets")), (Method::MarchingCubes, say!("scan-marching-cubes"))]
         {

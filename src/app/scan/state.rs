@@ -95,8 +95,8 @@ pub struct Picture {
 /// What has to happen outside.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Told {
-    /// A surface was made: it is to be opened. By how many mm it moves outwards at a threshold 10 % lower and 10 % higher.
-    Made(Source, Option<[f64; 2]>),
+    /// A surface was made: it is to be opened.
+    Made(Source),
     /// Something could not be done: one plain sentence.
     Refused(String),
     /// The scan that was on its way in is not opened.
@@ -286,9 +286,9 @@ impl Scans {
                 (open.preview, open.problem) = (Some((mesh, step, bounds)), None);
                 (open.awaited, open.progress) = (None, None);
             }
-            ScanEvent::Surface { generation, mesh, shifts_mm } if open.making == Some(generation) => {
+            ScanEvent::Surface { generation, mesh, threshold } if open.making == Some(generation) => {
                 let OpenedScan { format, axes, warnings, .. } = open.opened.clone();
-                let source = Source::Made { name: open.name.clone(), format, mesh, axes, warnings };
+                let source = Source::Made { name: open.name.clone(), format, mesh, axes, warnings, threshold };
                 if let (Source::Made { mesh, .. }, true) = (&source, open.keeps) {
                     let kept = KeptScan::new(open.opened.clone(), open.is_ct(), open.window, Arc::clone(mesh));
                     self.kept = Some(Box::new(kept));
@@ -296,7 +296,7 @@ impl Scans {
                     link.send(ScanCommand::Close);
                 }
                 self.open = None;
-                return Some(Told::Made(source, shifts_mm));
+                return Some(Told::Made(source));
             }
             ScanEvent::HalfWay { seed, found } if open.seed == Some(seed) => {
                 open.half_way = found;
@@ -359,6 +359,7 @@ impl OpenScan {
             None if open.is_ct() && artery.check(&open.opened.survey).is_ok() => artery,
             None => open.selection,
         };
+        open.method = Method::of(open.selection);
         if open.is_ct() && !open.opened.survey.is_mask() {
             open.window = WINDOWS[0].ends;
         }

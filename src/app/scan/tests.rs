@@ -10,7 +10,7 @@ use crate::io::ScanWarning;
 use crate::language::Key;
 use crate::mesh::TriMesh;
 use crate::mesh::shapes::icosphere;
-use crate::volume::{Axis, Cut, Label, Region, Selection, Survey};
+use crate::volume::{Axis, Cut, Label, Method, Region, Selection, Survey};
 
 /// A line whose other end is the test.
 #[derive(Default)]
@@ -116,14 +116,15 @@ fn a_scan_begins_with_arteries_and_asks_for_a_preview_at_a_time() {
 #[test]
 fn a_mask_begins_with_all_of_it_and_other_scans_half_way() {
     let (mut scans, mut line) = (Scans::default(), Line::default());
-    for (range, labels, expected) in [
-        ([0.0, 4.0], vec![Label { value: 4, points: 9 }], Selection::AnyLabel),
-        ([0.0, 2000.0], Vec::new(), Selection::Threshold(1000.0)),
+    for (range, labels, expected, method) in [
+        ([0.0, 4.0], vec![Label { value: 4, points: 9 }], Selection::AnyLabel, Method::SurfaceNets),
+        ([0.0, 2000.0], Vec::new(), Selection::Threshold(1000.0), Method::MarchingCubes),
     ] {
         scans.read(vec![NamedFile::new("a", Vec::new())], &mut line);
         let Some(ScanCommand::Open { id, .. }) = line.sent.pop_back() else { panic!("it is read") };
         scans.receive(opened(id, range, labels), &mut line);
-        assert_eq!(scans.shown().unwrap().selection, expected);
+        let open = scans.shown().unwrap();
+        assert_eq!((open.selection, open.method), (expected, method));
     }
 }
 
@@ -140,15 +141,16 @@ fn the_surface_is_opened_and_the_scan_left() {
     // While it is made no preview takes its place.
     scans.follow(&mut line);
     assert!(line.sent.iter().all(|command| matches!(command, ScanCommand::Slice { .. })));
-    let told = scans.receive(ScanEvent::Surface { generation, mesh: mesh(), shifts_mm: None }, &mut line);
+    let told = scans.receive(ScanEvent::Surface { generation, mesh: mesh(), threshold: None }, &mut line);
     let expected = Source::Made {
         name: "head".to_owned(),
         format: "NIfTI".to_owned(),
         mesh: mesh(),
         axes: crate::io::Axes::Unknown,
         warnings: vec![ScanWarning::Silent { format: "NIfTI".to_owned() }.into()],
+        threshold: None,
     };
-    assert_eq!((told, scans.is_open()), (Some(Told::Made(expected, None)), false));
+    assert_eq!((told, scans.is_open()), (Some(Told::Made(expected)), false));
 }
 
 #[test]
@@ -184,8 +186,8 @@ fn a_scan_is_kept_for_its_slices_until_another_surface_is_open() {
     let (mut scans, mut line) = scan();
     scans.act(Action::Make, &mut line);
     let Some(ScanCommand::Surface { generation, .. }) = line.sent.pop_front() else { panic!("a surface is asked for") };
-    let Some(Told::Made(source, _)) =
-        scans.receive(ScanEvent::Surface { generation, mesh: mesh(), shifts_mm: None }, &mut line)
+    let Some(Told::Made(source)) =
+        scans.receive(ScanEvent::Surface { generation, mesh: mesh(), threshold: None }, &mut line)
     else {
         panic!("it is opened")
     };
@@ -235,8 +237,8 @@ fn planes_are_called_after_the_patients_that_they_are_nearest_to() {
         scans.receive(ScanEvent::Opened(Box::new(OpenedScan { directions, axes, ..*facts })), &mut line);
         scans.act(Action::Make, &mut line);
         let Some(ScanCommand::Surface { generation, .. }) = line.sent.pop_back() else { panic!("it is made") };
-        let Some(Told::Made(source, _)) =
-            scans.receive(ScanEvent::Surface { generation, mesh: mesh(), shifts_mm: None }, &mut line)
+        let Some(Told::Made(source)) =
+            scans.receive(ScanEvent::Surface { generation, mesh: mesh(), threshold: None }, &mut line)
         else {
             panic!("it is opened")
         };

@@ -1,6 +1,6 @@
 //! What the engine says, and what it changes.
 
-use super::{Effect, Engine, State, Step};
+use super::{Effect, Engine, State};
 use crate::engine::{Event, Work};
 use crate::language::decimal;
 use crate::pipeline::report::Report;
@@ -154,8 +154,8 @@ impl State {
             document.show(settings.target);
         }
         self.settings = settings.clone();
-        self.history.replace(&Step { settings: settings.clone(), measures: self.measures.clone() });
         self.sent = settings;
+        self.history.replace(&self.step());
     }
 }
 

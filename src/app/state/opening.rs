@@ -11,6 +11,7 @@ use crate::io::{ImportOptions, Unit};
 use crate::language::tell;
 use crate::phantom::{MIN_TRIANGLES, Sample};
 use crate::pipeline::settings::{Keep, Settings};
+use crate::sharing::measures::Measure;
 
 impl State {
     /// Opens the file `name`. What is open stays until that is read.
@@ -29,12 +30,17 @@ impl State {
 
     /// Opens a surface, of all of which the largest piece is kept.
     pub fn open(&mut self, source: Source, link: &mut dyn Link) {
+        self.open_again(source, Arc::default(), link);
+    }
+
+    /// As [`Self::open`], with what was measured on it before.
+    pub fn open_again(&mut self, source: Source, measures: Arc<Vec<Measure>>, link: &mut dyn Link) {
         self.wake(link);
         self.number += 1;
         let id = self.number;
         let settings = Settings { keep: Keep::Largest, ..self.settings.clone() };
         link.send(Command::Open { id, source: source.clone(), settings: settings.clone() });
-        self.opening.push(Opening { id, source, settings });
+        self.opening.push(Opening { id, source, settings, measures });
         self.work = Some((Work::Reading, 0.0));
         self.notices.clear();
     }
@@ -49,6 +55,16 @@ impl State {
         }
     }
 
+    /// The unit that was chosen for the open file, also where it is still being read in it.
+    pub fn asked_unit(&self) -> Option<Unit> {
+        let open = &self.document.as_ref()?.source;
+        let again = self.opening.last().map(|opening| &opening.source).filter(|source| source.is_same_file(open));
+        match again.unwrap_or(open) {
+            Source::File { options, .. } => options.unit,
+            Source::Sample { .. } | Source::Made { .. } => None,
+        }
+    }
+
     /// The name of the surface that is being read.
     pub fn opening(&self) -> Option<Cow<'_, str>> {
         self.opening.last().map(|opening| opening.source.label())
@@ -58,8 +74,8 @@ impl State {
         self.engine = Engine::Loaded;
         if let Some(at) = self.opening.iter().position(|opening| opening.id == opened.id) {
             // The engine gives up what it was asked for before.
-            let Opening { source, settings, .. } = self.opening.drain(..=at).next_back()?;
-            self.arrive(Document::new(source, opened), settings);
+            let Opening { source, settings, measures, .. } = self.opening.drain(..=at).next_back()?;
+            self.arrive(Document::new(source, opened), settings, &measures);
             return Some(Effect::Opened);
         }
         // Others were read again by a new engine, and are shown already.
@@ -74,9 +90,11 @@ impl State {
     }
 
     /// A surface that is read takes the place of the one that is open.
-    fn arrive(&mut self, document: Document, settings: Settings) {
+    fn arrive(&mut self, document: Document, settings: Settings, measures: &Arc<Vec<Measure>>) {
         let keep = self.settings.keep;
-        let before = self.document.take();
+        let is_same = self.document.as_ref().is_some_and(|before| before.source.is_same_file(&document.source));
+        let before = self.document.replace(document);
+        let unit = self.asked_unit();
         // Of two that follow each other the one that had a level can be gone back to.
         if self.before.is_none() {
             let (measures, history) = (self.measures.clone(), self.history.clone());
@@ -85,21 +103,25 @@ impl State {
         // Pieces are numbered in one surface only.
         self.settings.keep = Keep::Largest;
         // What was measured belongs to the surface that is closed.
-        self.measures = Arc::default();
+        self.measures.clone_from(measures);
         self.history.change_all(|step| {
             step.settings.keep = Keep::Largest;
-            step.measures = Arc::default();
+            step.measures.clone_from(measures);
+            // Read in another unit it is another step; another file has its own.
+            if !is_same {
+                step.unit = unit;
+            }
         });
-        self.generation = document.revision.document;
         self.is_stopped = false;
         // What was moved meanwhile follows.
         self.sent = settings;
         self.is_cancelling = false;
-        if let Some(warning) = document.import.warnings.first() {
-            self.tell(&tell(warning));
-        }
         self.shows_averaged = false;
-        self.document = Some(document);
+        let Some(document) = &self.document else { return };
+        self.generation = document.revision.document;
+        if let Some(warning) = document.import.warnings.first().map(|warning| tell(warning)) {
+            self.tell(&warning);
+        }
     }
 
     /// Gives up the surface that has no level yet: what was open before it is again. Says what to tell the others.

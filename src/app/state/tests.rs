@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::{Effect, State};
 use crate::app::notices::Kind;
 use crate::engine::{Command, Engine, Event, Link, Source, Work};
-use crate::io::Format;
+use crate::io::{Format, Unit};
 use crate::phantom::{self, Sample};
 use crate::pipeline::pinch::Pinch;
 use crate::pipeline::settings::{Keep, Target};
@@ -302,10 +302,42 @@ fn undo_does_not_bring_back_a_piece_of_another_file() {
     state.open_file("b.obj".into(), b"v 0 0 0\nv 50 0 0\nv 0 50 0\nf 1 2 3\n".to_vec(), &mut line);
     settle(&mut state, &mut line);
     while state.history.can_undo() {
-        state.undo();
+        state.undo(&mut line);
         state.follow(false, &mut line);
         settle(&mut state, &mut line);
         agrees(&state);
+    }
+}
+
+#[test]
+fn another_unit_of_a_file_is_a_step_to_undo_at_once() {
+    let (mut state, mut line) = start();
+    let across = |state: &State| {
+        let corners = &state.document.as_ref().unwrap().opened.positions;
+        corners.iter().fold(0.0_f32, |most, corner| most.max(corner[0]))
+    };
+    let before = across(&state);
+    state.set_unit(Some(Unit::Centimetre), &mut line);
+    state.follow(false, &mut line);
+    assert!(state.history.can_undo(), "while it is read");
+    settle(&mut state, &mut line);
+    state.follow(false, &mut line);
+    assert!((across(&state) / before - 10.0).abs() < 1e-4);
+    state.undo(&mut line);
+    state.follow(false, &mut line);
+    settle(&mut state, &mut line);
+    assert_eq!(across(&state), before);
+    state.redo(&mut line);
+    state.follow(false, &mut line);
+    settle(&mut state, &mut line);
+    assert!((across(&state) / before - 10.0).abs() < 1e-4);
+    // Another file has its own unit; no step back reads it in another.
+    state.open_file("b.obj".into(), b"v 0 0 0\nv 50 0 0\nv 0 50 0\nf 1 2 3\n".to_vec(), &mut line);
+    settle(&mut state, &mut line);
+    while state.history.can_undo() {
+        state.undo(&mut line);
+        state.follow(false, &mut line);
+        assert!(state.opening().is_none());
     }
 }
 
@@ -316,9 +348,9 @@ fn undo_of_a_typed_value_that_was_not_recorded() {
     state.follow(false, &mut line);
     state.settings.target = Target::Reduction(600);
     state.follow(true, &mut line);
-    state.undo();
+    state.undo(&mut line);
     assert_eq!(state.settings.target, Target::Reduction(500));
-    state.redo();
+    state.redo(&mut line);
     assert_eq!(state.settings.target, Target::Reduction(600));
 }
 
@@ -413,7 +445,7 @@ fn the_level_for_a_bound_on_the_deviation_comes_with_the_answer() {
     let report = &state.document.as_ref().unwrap().measured.as_ref().unwrap().report;
     assert_eq!(shown(&state), report.output.triangles);
     while state.history.can_undo() {
-        state.undo();
+        state.undo(&mut line);
         state.follow(false, &mut line);
         settle(&mut state, &mut line);
         agrees(&state);

@@ -136,7 +136,7 @@ impl Trial {
                 self.start(Some(csv), document, link);
             }
             // What is no log is refused by the engine.
-            _ => match self.begin_run(|_, id| Run::new(id)) {
+            _ => match self.begin_run(|session, id| Run::new(id, Some(&session.run))) {
                 // The log's wire may enter a little otherwise than the one that is shown.
                 Some(id) => {
                     self.reset_controls();

@@ -94,7 +94,11 @@ impl Trial {
                 setup.wire.clone_from(&ready.setup.wire);
             }
         }
-        let session = Box::new(Session { subject, ready, at_entry: None, run: Run::new(id) });
+        let before = preparing.before.as_deref();
+        let before =
+            before.filter(|before| before.subject.of.document == subject.of.document).map(|before| &before.run);
+        let run = Run::new(id, before);
+        let session = Box::new(Session { subject, ready, at_entry: None, run });
         let log = if preparing.coming.is_empty() {
             let log = preparing.log.take();
             open.stage = Stage::Association(session);
@@ -110,7 +114,7 @@ impl Trial {
         }
         self.reset_controls();
         if let Some(csv) = log
-            && let Some(id) = self.begin_run(|_, id| Run::new(id))
+            && let Some(id) = self.begin_run(|session, id| Run::new(id, Some(&session.run)))
         {
             link.send(TrialCommand::Replay { id, csv });
         }

@@ -1,4 +1,4 @@
-//! The largest forces of a run: the bars and the colours of the wall grow with them.
+//! The largest forces of all runs on a surface: the bars and the colours of the wall grow with them.
 
 use crate::trial::frame::{Frame, Touch};
 

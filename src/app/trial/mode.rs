@@ -207,6 +207,7 @@ impl Filling for TrialPanel {
 
     fn fill(&mut self, ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) -> Vec<Action> {
         let (document, keep) = (state.document.as_ref(), state.settings.keep);
+        self.trial.take_title(document);
         let asked = self.view.show(ui, &mut self.trial, views, document, keep, is_narrow);
         asked.map(Action::Trial).into_iter().collect()
     }

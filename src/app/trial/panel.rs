@@ -68,18 +68,18 @@ fn closed(ui: &mut Ui, document: Option<&Document>, asked: &mut Vec<Action>) {
     });
 }
 
-/// Shows how the trial stands, and the buttons that steer it.
+/// Shows the buttons that steer the trial, and how it stands: these do not move with what is said.
 pub(super) fn head(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
     let Some(shown) = trial.open() else { return };
     title(ui, 4, &say!("trial-title"));
+    buttons(ui, trial, shown, asked);
     problem(ui, trial);
     let least = SENTENCE_LINES * ui.text_style_height(&egui::TextStyle::Body);
     ui.scope(|ui| {
-        // What lies below must not move with what is said.
+        // Nor do the numbers below it, as far as there is room.
         ui.set_min_height(least);
         state(ui, shown);
     });
-    buttons(ui, trial, shown, asked);
 }
 
 fn open(ui: &mut Ui, trial: &Trial, shown: &Open, asked: &mut Vec<Action>) {

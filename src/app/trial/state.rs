@@ -43,8 +43,9 @@ pub struct Trial {
     pub(super) problem: Option<Problem>,
     /// The number of the newest command that has one.
     pub(super) number: u64,
-    /// The name of the surface.
+    /// The name of the surface, and what it is called in the language that is spoken.
     pub(super) name: String,
+    pub(super) title: String,
     /// While the trial's views are shown: all that means nothing without them.
     pub(super) open: Option<Box<Open>>,
 }
@@ -148,8 +149,9 @@ pub struct Run {
     strongest: [f64; 2],
     /// What the wall has felt, in the order in which it was told.
     pub(super) felt: Vec<Touch>,
-    /// The largest forces.
+    /// The largest forces, of the runs before on the same surface too, and those of these alone.
     pub(super) peaks: Largest,
+    peaks_before: Largest,
     /// What came of it, once it is over.
     pub summary: Option<Summary>,
     /// Why it ended, once it has.
@@ -185,6 +187,13 @@ impl From<String> for Problem {
 }
 
 impl Trial {
+    /// Takes what its surface is called, which changes with the language: as long as that surface is open.
+    pub(super) fn take_title(&mut self, document: Option<&Document>) {
+        if let Some(document) = document.filter(|document| document.name == self.name) {
+            self.title = document.title().into_owned();
+        }
+    }
+
     /// None is on; the wire is to be the one that is proposed.
     pub(in crate::app) fn new() -> Self {
         Self { setup: Setup { proposes_wire: true, ..Setup::default() }, ..Self::default() }
@@ -251,7 +260,7 @@ impl Trial {
         self.run()?.frame.as_ref()
     }
 
-    /// The largest forces of what is shown.
+    /// The largest forces on the surface that is shown.
     pub(super) fn peaks(&self) -> Largest {
         self.run().map(|run| run.peaks).unwrap_or_default()
     }
@@ -391,20 +400,22 @@ impl Session {
 }
 
 impl Run {
-    /// One that nothing is known of yet.
-    pub(super) fn new(id: u64) -> Self {
-        Self { id, ..Self::default() }
+    /// One that nothing is known of yet. On the surface of the one before, bars and colours keep their scale: what is weaker
+    /// looks weaker.
+    pub(super) fn new(id: u64, before: Option<&Self>) -> Self {
+        let peaks = before.map(|before| before.peaks).unwrap_or_default();
+        Self { id, peaks, peaks_before: peaks, ..Self::default() }
     }
 
     /// From the entry: the wire is shown there until more is told.
     pub(super) fn from_entry(session: &Session, id: u64) -> Self {
-        Self { frame: session.at_entry.clone(), ..Self::new(id) }
+        Self { frame: session.at_entry.clone(), ..Self::new(id, Some(&session.run)) }
     }
 
     /// From a second before, standing still. What was felt up to there is told again.
     pub(super) fn stepped_back(&self, id: u64) -> Self {
-        let (autopilot, frame) = (self.autopilot, self.frame.clone());
-        Self { autopilot, frame, is_paused: true, ..Self::new(id) }
+        let (autopilot, frame, peaks) = (self.autopilot, self.frame.clone(), self.peaks_before);
+        Self { id, autopilot, frame, is_paused: true, peaks, peaks_before: peaks, ..Self::default() }
     }
 
     /// Differs wherever the wire may lie otherwise, in this run or another.

@@ -57,7 +57,7 @@ fn content(ui: &mut Ui, tables: &Tables, asked: &mut Vec<Action>) {
     let what = match tables.sample {
         Some(Sample::Aorta) => say!("trial-tables-aorta"),
         Some(Sample::Coronary) => say!("trial-tables-coronary"),
-        None => say!("trial-tables-other"),
+        Some(Sample::AortaNets) | None => say!("trial-tables-other"),
     };
     ui.label(RichText::new(format!("{what} {}", say!("trial-tables-brackets"))).weak());
     ScrollArea::horizontal().show(ui, |ui| {
@@ -125,7 +125,7 @@ fn cells(row: &Row, sample: Option<Sample>) -> [String; COLUMNS.len()] {
     let paper: &[TrialRow] = match sample {
         Some(Sample::Aorta) => &TABLE_III,
         Some(Sample::Coronary) => &TABLE_IV,
-        None => &[],
+        Some(Sample::AortaNets) | None => &[],
     };
     let printed = paper.iter().find(|printed| printed.rate == row.rate);
     let beside = |ours: Option<String>, theirs: Option<String>| {

@@ -6,7 +6,7 @@ use crate::app::state::State;
 use crate::engine::Source;
 use crate::language::tell;
 use crate::pipeline::connectivity::LeftOut;
-use crate::pipeline::verdict::{Finding, Known, Remedied, Remedy, Rest, Verdict, rate};
+use crate::pipeline::verdict::{Finding, Known, Remedied, Remedy, Rest, Verdict, takes_more};
 
 /// Height of what is seen around a place, in widths of the vessel there.
 const SEEN: f64 = 8.0;
@@ -46,7 +46,7 @@ fn safe_percent(state: &State, document: &Document) -> Option<f64> {
     let percent = state.safe()?.percent?;
     let entering = document.levels.as_ref()?.1.triangles.len();
     let shown = document.shown.as_ref()?.level.triangles.len();
-    (shown < rate(percent).triangles(entering)).then_some(percent)
+    takes_more(shown, percent, entering).then_some(percent)
 }
 
 /// What goes to the place of a finding.

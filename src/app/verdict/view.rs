@@ -94,7 +94,7 @@ fn buttons(
     let count = verdict.findings.len();
     let words = match first {
         Some(_) if is_narrow => say!("verdict-what-to-do"),
-        Some(_) => say!("verdict-findings", count = count),
+        Some(_) => say!("verdict-findings"),
         None => say!("verdict-notes", count = count),
     };
     if count > 0 {

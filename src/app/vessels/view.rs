@@ -124,9 +124,12 @@ fn table(
         for &branch in rows {
             for (column, cell) in cells(branch, safe).into_iter().enumerate() {
                 if column > 0 {
-                    let is_bad = column == 1 && branch.verdict == Verdict::Changed;
                     let cell = RichText::new(cell);
-                    let label = ui.label(if is_bad { cell.color(ui.visuals().error_fg_color) } else { cell });
+                    let label = ui.label(match branch.verdict {
+                        Verdict::Changed if column == 1 => cell.color(ui.visuals().error_fg_color),
+                        Verdict::NotMeasured => cell.weak(),
+                        _ => cell,
+                    });
                     if let Some(why) = why_not_measured(branch).filter(|_| column == 1) {
                         label.on_hover_text(why.say());
                     }

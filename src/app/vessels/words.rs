@@ -99,7 +99,7 @@ mod tests {
     #[test]
     fn a_row_has_numbers_with_units_and_dashes_for_what_is_not_known() {
         let row = cells(&branch(3, None), None);
-        let numbers = ["0 %", "–", "+0.0 %", "–", "1.50 (1.00 to 2.00)", "–", "12.3", "–"];
+        let numbers = ["0 %", "–", "0.0 %", "–", "1.50 (1.00 to 2.00)", "–", "12.3", "–"];
         assert_eq!(
             (&row[..2], &row[2..]),
             (&["branch 3", "not measured"].map(str::to_owned)[..], &numbers.map(str::to_owned)[..])

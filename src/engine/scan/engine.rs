@@ -8,13 +8,14 @@ use super::super::machine::{Machine, SLICE};
 use super::message::{ScanCommand, ScanEvent, ScanWork};
 use super::opening::{Found, Opening};
 use super::shelf::{Empty, Shelf};
+use crate::io::ThresholdReport;
 use crate::language::tell;
 use crate::mesh::TriMesh;
 use crate::say;
 use crate::task::{Budget, Progress, Running};
 use crate::volume::{
-    Cut, Grid, Region, Selection, Survey, VolumeError, half_way, preview_step, reduced_in_slices, region_of, shifts_mm,
-    slice, surface_in_slices,
+    Cut, Grid, Region, Selection, Survey, VolumeError, half_way, preview_step, reduced_in_slices, region_of, slice,
+    surface_in_slices,
 };
 
 /// A volume and surfaces of it, as a machine of commands and events.
@@ -182,8 +183,8 @@ impl ScanEngine {
                 self.events.push_back(ScanEvent::Preview { generation, step, mesh: Arc::new(mesh) });
             }
             (Job::Surface { generation, cut, .. }, Made::Surface(Ok(mesh))) => {
-                let shifts_mm = shifts_mm(&current.grid, &mesh, cut.selection);
-                self.events.push_back(ScanEvent::Surface { generation, mesh: Arc::new(mesh), shifts_mm });
+                let threshold = ThresholdReport::new(&current.grid, &mesh, cut.selection);
+                self.events.push_back(ScanEvent::Surface { generation, mesh: Arc::new(mesh), threshold });
             }
             (Job::Preview { generation, .. } | Job::Surface { generation, .. }, Made::Surface(Err(error))) => {
                 self.refuse(generation, tell(&error));

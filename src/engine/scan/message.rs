@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::link::Link;
 use super::super::surfaces::surface;
-use crate::io::{Axes, Offer, Warning};
+use crate::io::{Axes, Offer, ThresholdReport, Warning};
 use crate::mesh::TriMesh;
 use crate::transfer::bulk;
 use crate::volume::{Axis, Cut, HalfWay, Selection, Survey};
@@ -171,8 +171,8 @@ pub enum ScanEvent {
         /// In mm, counter-clockwise seen from outside, not welded.
         #[serde(with = "surface")]
         mesh: Arc<TriMesh>,
-        /// By how many mm it would move outwards at a threshold 10 % lower and 10 % higher; none of a mask.
-        shifts_mm: Option<[f64; 2]>,
+        /// How it hangs on its threshold; none of a mask.
+        threshold: Option<ThresholdReport>,
     },
     /// The threshold around a seed; `None` where no edge was found.
     HalfWay {

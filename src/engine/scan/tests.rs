@@ -48,7 +48,7 @@ fn a_scan_is_opened_previewed_and_cut() {
     let [ScanEvent::Opened(opened)] = &run(&mut engine, ball(false))[..] else { panic!("it opens") };
     assert_eq!((opened.id, opened.dimensions, opened.format.as_str()), (7, [64; 3], "MetaImage"));
     assert_eq!((opened.survey.histogram.iter().sum::<u64>(), opened.proposed), (64 * 64 * 64, None));
-    let [ScanEvent::Surface { generation: 2, mesh, shifts_mm: Some(_) }] =
+    let [ScanEvent::Surface { generation: 2, mesh, threshold: Some(_) }] =
         &run(&mut engine, surface(Selection::Threshold(100.0)))[..]
     else {
         panic!("it is cut")

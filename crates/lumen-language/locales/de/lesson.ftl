@@ -22,6 +22,7 @@ lesson-show-answer = Antwort zeigen
 lesson-show-answer-help = Zuerst selbst antworten
 # Told as a lesson is closed.
 lesson-given-back = Einstellungen und Farben sind wie vor der Lektion. Rückgängig holt ihre Einstellungen zurück.
+lesson-given-back-surface = { $name } ist wieder offen, mit den Einstellungen von vor der Lektion.
 
 ## Was an einer Lektion falsch ist, die eine Lehrkraft geschrieben hat
 
@@ -81,6 +82,43 @@ lesson-stair-steps-text =
     show: split
     look: das Drahtgitter; eines von zehn Dreiecken ist übrig, und die Form ist da.
 
+lesson-nets = Zwei Wege von einer Maske
+lesson-nets-text =
+    lumen lesson 1
+    title: Zwei Wege von einer Maske
+
+    step: Marching Cubes
+    text: Eine Maske sagt von jedem Voxel, ob es Gefäß ist. Marching Cubes legt jeden Eckpunkt auf halbem Weg zwischen ein Voxel, das
+      es ist, und eines, das es nicht ist. So hat die Wand die Stufen der Voxel.
+    sample: aorta
+    settings: iterations=0 reduction=0
+    view: anterior
+    show: raking
+    look: die Stufen; noch ist nichts geglättet.
+
+    step: Surface Nets
+    text: Dieselbe Maske durch Surface Nets. Jede Zelle zwischen ungleichen Voxeln hat einen Eckpunkt, der sich zu seinen Nachbarn hin
+      und wieder zurück bewegt und seine Zelle nie verlässt. Die Oberfläche ist weniger rau, noch vor jedem Filter.
+    sample: aorta-nets
+    settings: iterations=0 reduction=0
+    view: anterior
+    show: raking
+    look: dieselben Stellen wie zuvor.
+    ask: Solches Glätten zieht eine Wand nach innen. Sind die Gefäße davon enger?
+    answer: Nein. Auf jeden Schritt zu den Nachbarn hin folgt einer zurück, und das Volumen weicht um weniger als 1 % von dem durch
+      Marching Cubes ab.
+
+    step: Beide mit dem Filter
+    text: Der Filter glättet die eine wie die andere Oberfläche. Hier ist jede Arterie, die von der Aorta abgeht, auf beiden Wegen
+      gleich weit, auf 1 % ihres mittleren Radius genau.
+    sample: aorta-nets
+    settings: reduction=0
+    view: anterior
+    show: split
+    look: die Linie in der linken Ansicht; links davon Surface Nets, wie sie sind, rechts davon mit dem Filter.
+    ask: Warum beginnt Lumen mit Surface Nets, wenn eine Maske geöffnet wird?
+    answer: Wegen dünner Gefäße. Der Filter schont sie, und so bleibt von ihnen fast das, womit er beginnt.
+
 lesson-pass-band = Durchlassband
 lesson-pass-band-text =
     lumen lesson 1
@@ -119,7 +157,8 @@ lesson-pass-band-text =
     settings: pass-band=0.001 iterations=200 reduction=0 adapt=no guard=no
     view: anterior
     show: calibre
-    look: die Farben der dünnen Äste. Die Skala zeigt Prozent ihres Radius.
+    look: die Farben der Äste 4 und 5, der Nierenarterien, und 1 und 7, der Beckenarterien. Die Skala zeigt Prozent ihres
+      Radius.
 
 lesson-windows = Iterationen und Fenster
 lesson-windows-text =
@@ -251,7 +290,7 @@ lesson-wire-text =
     settings: reduction=90
     view: anterior
     show: vessels
-    look: die Durchmesser in der Tabelle; ein Draht von 0,89 mm muss seinen Weg hindurch finden.
+    look: die Radien in der Tabelle; ein Draht von 0,89 mm Durchmesser muss seinen Weg hindurch finden.
     ask: Wird der Draht die Wand auf dem ganzen Weg berühren oder an wenigen Stellen?
     answer: An wenigen: Er ist steif und liegt außen an den Biegungen an.
 
@@ -259,15 +298,16 @@ lesson-wire-text =
     text: Der Autopilot schiebt und dreht den Draht, wie eine Hand es täte. Schubkraft ist die Kraft an der Hand, längs des Drahts.
     settings: reduction=90
     trial: autopilot
-    look: die Stellen, die hell werden, wo die Wand am meisten gespürt hat, und die Schubkraft in der Seitenleiste.
+    look: Wandkraft und Schubkraft in der Seitenleiste, und die Farbe der Wand, wo sie berührt wurde.
 
     step: Weniger Dreiecke
     text: Dasselbe mit einem von hundert Dreiecken. Jede Facette ist eine flache Stelle mit einer Kante zur nächsten.
     settings: reduction=99
     trial: autopilot
-    ask: Wo würden Sie mehr Kraft erwarten als zuvor?
-    answer: Wo der Draht über die Kante zwischen zwei großen Facetten gleitet. „Mit der unreduzierten Oberfläche vergleichen“ misst es,
-      gegen das Rauschen derselben Oberfläche mit ihren Dreiecken in anderer Reihenfolge.
+    look: die Balken; ihre Skala ist die des Schritts davor.
+    ask: Ist die Kraft auf die Wand eine andere als zuvor?
+    answer: Ein Lauf sagt das nicht: Schon eine andere Reihenfolge der Dreiecke ändert sie. „Mit der unreduzierten Oberfläche
+      vergleichen“ misst den Unterschied gegen dieses Rauschen.
 
 ## Das Glossar
 
@@ -294,6 +334,7 @@ lesson-word-progressive-mesh = Progressives Netz: Alle Stufen eines Laufs, aus d
 lesson-word-quadric = Quadrik: Die Summe der quadrierten Abstände von einer Menge von Ebenen, als zehn Zahlen aufbewahrt.
 lesson-word-reduction-rate = Reduktionsrate: Der Teil der Dreiecke, der entfernt wird, in Prozent.
 lesson-word-simple-vertex = Einfacher Eckpunkt: Ein Eckpunkt innerhalb der Oberfläche und auf keiner Formkante.
+lesson-word-surface-nets = Surface Nets: Das Verfahren, das jeder Zelle zwischen ungleichen Voxeln einen Eckpunkt gibt und ihn darin glättet.
 lesson-word-topology = Topologie: Welche Stücke, Löcher und offenen Enden es gibt, was immer ihre Form ist.
 lesson-word-wavelength = Wellenlänge: Die Länge einer Welle auf der Oberfläche, in mm. Der Weg um ein Gefäß ist eine.
 lesson-word-window = Fenster: Gewichte, die die Terme des Filters auslaufen lassen, sodass er weniger wellig ist.

@@ -449,6 +449,7 @@ panel-stage-safe = Sichere Rate suchen
 
 panel-sample-aorta = Bauchaorta
 panel-sample-coronary = Koronararterien
+panel-sample-aorta-nets = Bauchaorta durch Surface Nets
 
 ## Die Gleichungen
 

@@ -33,6 +33,8 @@ report-size = Größe
 report-size-mm = { $x } × { $y } × { $z } mm
 report-axes = Achsen
 report-axes-unknown = unbekannt
+report-threshold = Schwelle
+report-threshold-moves = { $value }; um 10 % niedriger läge die Wand { $lower } mm weiter außen, um 10 % höher { $higher } mm
 
 ## Einstellungen
 

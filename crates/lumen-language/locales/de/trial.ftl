@@ -127,7 +127,7 @@ trial-friction-help = Reibungszahl, während der Draht an der Wand haftet; währ
 
 ## Where it enters and should go
 
-trial-entry = Einführstelle
+trial-entry = Zugang
 trial-entry-help = Wo der Draht aus der Schleuse oder dem Führungskatheter kommt
 trial-target = Ziel
 trial-target-help = Wohin er soll

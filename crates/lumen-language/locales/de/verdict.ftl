@@ -20,10 +20,7 @@ verdict-stopped = Es wurde abgebrochen, oder die Berechnung ist abgestürzt: zum
 # $text is what is said of the surface, a sentence: that it is a sample.
 verdict-sample = Beispiel: { $text }
 verdict-what-to-do = Abhilfe
-verdict-findings = { $count ->
-    [one] { $count } Befund
-   *[other] { $count } Befunde
-}
+verdict-findings = Einzelheiten
 verdict-list-grave = Zu prüfen
 verdict-list-notes = Hinweise
 verdict-notes = { $count ->
@@ -100,6 +97,7 @@ verdict-crossing-before = { $count ->
 verdict-narrower = Wie geöffnet ist { $name } über { $length } mm um { $percent } % enger als zu beiden Seiten: { $reference }.
 verdict-wider = Wie geöffnet ist { $name } über { $length } mm um { $percent } % weiter als zu beiden Seiten: { $reference }.
 verdict-few-iterations = Zu wenige Iterationen für dieses Durchlassband: Zum Glätten braucht es mehr.
+verdict-not-smoothed = Nichts ist geglättet: Hat die Oberfläche die Stufen ihrer Aufnahme, sind sie noch da, und ein Draht bleibt an ihnen hängen.
 verdict-shortfall-topology = Weiter als auf { $reached } Dreiecke lässt sich diese Oberfläche nicht reduzieren (gewünscht waren { $wanted }): Weiteres Entfernen würde ein offenes Ende schließen oder ein Gefäß einschnüren
 verdict-shortfall-geometry = Weiter als auf { $reached } Dreiecke lässt sich diese Oberfläche nicht reduzieren (gewünscht waren { $wanted }): Weiteres Entfernen würde die Oberfläche auf sich selbst falten
 verdict-shortfall-complex = Weiter als auf { $reached } Dreiecke lässt sich diese Oberfläche nicht reduzieren (gewünscht waren { $wanted }): Der Rest liegt an Kanten von mehr als zwei Dreiecken, die bleiben, wie sie sind

@@ -58,9 +58,9 @@ vessels-narrower-over = { $percent } % enger über { $length } mm, bei { $at } m
 vessels-wider-over = { $percent } % weiter über { $length } mm, bei { $at } mm
 vessels-uneven-both = { $narrower }; { $wider }
 # Der Durchmesser, die Referenz, und an welchen Stellen entlang des Gefäßes sie gemessen ist.
-vessels-reference-between = { $diameter } von { $reference } mm, nach den Durchmessern bei { $from } und { $to } mm
-vessels-reference-at = { $diameter } von { $reference } mm, nach dem Durchmesser bei { $at } mm
-vessels-reference = { $diameter } von { $reference } mm
+vessels-reference-between = { $diameter } statt { $reference } mm, nach den Durchmessern bei { $from } und { $to } mm
+vessels-reference-at = { $diameter } statt { $reference } mm, nach dem Durchmesser bei { $at } mm
+vessels-reference = { $diameter } statt { $reference } mm
 vessels-table = { $name }, zulässige Änderung { $tolerance } %
 # Folgt darauf nach einem Komma.
 vessels-table-measured = gemessen über { $coverage }

@@ -34,6 +34,9 @@ report-size = Size
 report-size-mm = { $x } x { $y } x { $z } mm
 report-axes = Axes
 report-axes-unknown = unknown
+# That of the scan that the surface was made of, and by how much others would move its wall.
+report-threshold = Threshold
+report-threshold-moves = { $value }; 10 % lower the wall lies { $lower } mm farther out, 10 % higher { $higher } mm
 
 ## Settings
 

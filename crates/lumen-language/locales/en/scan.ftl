@@ -44,7 +44,7 @@ scan-seed-click = Click the vessel in the slice: only what is connected to it be
 scan-half-way = The threshold is half way between the vessel ({ $vessel }{ $unit }) and what is around it ({ $around }{ $unit }).
 # How the surface of a mask is made.
 scan-method = Surface by
-scan-method-help = Marching cubes keep the steps of the voxels for smoothing to remove; surface nets relax them within each voxel, which narrows thin vessels
+scan-method-help = Surface nets relax the steps of the voxels within each voxel, by which thin vessels are nearest to their calibre; marching cubes keep them for smoothing to remove
 scan-surface-nets = Surface nets
 scan-marching-cubes = Marching cubes
 # By how many mm the wall would move outwards, with a sign where inwards.

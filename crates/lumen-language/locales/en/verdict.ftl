@@ -15,11 +15,8 @@ verdict-what-to-do = What to do
 # Shows the pieces that are left out, which can be chosen in the view.
 verdict-choose-pieces = Choose pieces
 verdict-choose-pieces-help = Shows what is left out; a click on a piece keeps that one, with Shift or Ctrl besides the others
-# Opens the list of the findings; $count is 1 at least. The list has two parts, each with a title.
-verdict-findings = { $count ->
-    [one] { $count } finding
-   *[other] { $count } findings
-}
+# Opens the list of the findings. The list has two parts, each with a title.
+verdict-findings = Details
 verdict-list-grave = To look at
 verdict-list-notes = Notes
 verdict-notes = { $count ->

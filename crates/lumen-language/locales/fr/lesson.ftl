@@ -22,6 +22,7 @@ lesson-show-answer = Voir la réponse
 lesson-show-answer-help = Donner d'abord la sienne
 # Told as a lesson is closed.
 lesson-given-back = Réglages et couleurs sont comme avant la leçon. Annuler rétablit ceux de la leçon.
+lesson-given-back-surface = { $name } est de nouveau ouvert, avec les réglages d'avant la leçon.
 
 ## Ce qui ne va pas dans une leçon qu'un enseignant a écrite
 
@@ -81,6 +82,43 @@ lesson-stair-steps-text =
     show: split
     look: le fil de fer ; il reste un triangle sur dix, et la forme est là.
 
+lesson-nets = Deux chemins depuis un masque
+lesson-nets-text =
+    lumen lesson 1
+    title: Deux chemins depuis un masque
+
+    step: Marching cubes
+    text: Un masque dit de chaque voxel s'il fait partie du vaisseau. Les marching cubes placent chaque sommet à mi-chemin entre un voxel
+      qui en fait partie et un autre qui n'en fait pas partie. La paroi a donc les marches des voxels.
+    sample: aorta
+    settings: iterations=0 reduction=0
+    view: anterior
+    show: raking
+    look: les marches ; rien n'est encore lissé.
+
+    step: Surface nets
+    text: Le même masque par surface nets. Chaque cellule entre des voxels différents a un sommet, qui va vers ses voisins et en revient
+      sans jamais quitter sa cellule. La surface est moins rugueuse avant tout filtre.
+    sample: aorta-nets
+    settings: iterations=0 reduction=0
+    view: anterior
+    show: raking
+    look: les mêmes endroits qu'avant.
+    ask: Un tel lissage tire une paroi vers l'intérieur. Les vaisseaux en sont-ils plus étroits ?
+    answer: Non. Chaque pas vers les voisins est suivi d'un pas en arrière, et le volume diffère de moins de 1 % de celui des marching
+      cubes.
+
+    step: Les deux avec le filtre
+    text: Le filtre lisse l'une et l'autre surface. Ici, chaque artère qui part de l'aorte est aussi large par les deux chemins, à
+      1 % près de son rayon moyen.
+    sample: aorta-nets
+    settings: reduction=0
+    view: anterior
+    show: split
+    look: la ligne dans la vue de gauche ; à sa gauche les surface nets telles quelles, à sa droite avec le filtre.
+    ask: Pourquoi Lumen commence-t-il par les surface nets quand un masque est ouvert ?
+    answer: Pour les vaisseaux fins. Le filtre les épargne, et il en reste presque ce par quoi il commence.
+
 lesson-pass-band = Bande passante
 lesson-pass-band-text =
     lumen lesson 1
@@ -119,7 +157,8 @@ lesson-pass-band-text =
     settings: pass-band=0.001 iterations=200 reduction=0 adapt=no guard=no
     view: anterior
     show: calibre
-    look: les couleurs des branches fines. L'échelle est en pour cent de leur rayon.
+    look: les couleurs des branches 4 et 5, les artères rénales, et 1 et 7, les artères iliaques. L'échelle est en pour cent de
+      leur rayon.
 
 lesson-windows = Itérations et fenêtres
 lesson-windows-text =
@@ -251,7 +290,7 @@ lesson-wire-text =
     settings: reduction=90
     view: anterior
     show: vessels
-    look: les diamètres dans le tableau ; un guide de 0,89 mm doit y trouver son chemin.
+    look: les rayons dans le tableau ; un guide de 0,89 mm de diamètre doit y trouver son chemin.
     ask: Le guide touchera-t-il la paroi tout du long, ou en quelques endroits ?
     answer: En quelques-uns : il est raide et s'appuie à l'extérieur des courbes.
 
@@ -259,15 +298,16 @@ lesson-wire-text =
     text: L'autopilote avance et tourne le guide comme le ferait une main. La poussée est la force à la main, le long du guide.
     settings: reduction=90
     trial: autopilot
-    look: les endroits qui s'éclairent, où la paroi a senti le plus, et la poussée dans le panneau.
+    look: Force paroi et Poussée dans le panneau, et la couleur de la paroi là où elle a été touchée.
 
     step: Moins de triangles
     text: La même chose avec un triangle sur cent. Chaque facette est un endroit plat avec une arête vers la suivante.
     settings: reduction=99
     trial: autopilot
-    ask: Où attendriez-vous plus de force qu'avant ?
-    answer: Là où le guide glisse sur l'arête entre deux grandes facettes. « Comparer à la surface non réduite » le mesure, face
-      au bruit de la même surface avec ses triangles dans un autre ordre.
+    look: les barres, dont l'échelle est celle de l'étape d'avant.
+    ask: La force sur la paroi est-elle une autre qu'avant ?
+    answer: Un seul essai ne le dit pas : un autre ordre des triangles suffit à la changer. « Comparer à la surface non
+      réduite » mesure la différence face à ce bruit.
 
 ## Le glossaire
 
@@ -295,6 +335,7 @@ lesson-word-progressive-mesh = Maillage progressif: Tous les niveaux d'un calcul
 lesson-word-quadric = Quadrique: La somme des carrés des distances à un ensemble de plans, gardée en dix nombres.
 lesson-word-reduction-rate = Taux de réduction: La part des triangles qui est enlevée, en pour cent.
 lesson-word-simple-vertex = Sommet simple: Un sommet dans la surface et sur aucune arête vive.
+lesson-word-surface-nets = Surface nets: La méthode qui donne un sommet à chaque cellule entre des voxels différents et l'y lisse.
 lesson-word-topology = Topologie: Quels morceaux, trous et extrémités ouvertes il y a, quelle que soit leur forme.
 lesson-word-wavelength = Longueur d'onde: La longueur d'une onde sur la surface, en mm. Le tour d'un vaisseau en est une.
 lesson-word-window = Fenêtre: Des poids qui atténuent les termes du filtre, pour qu'il ondule moins.

@@ -446,6 +446,7 @@ panel-stage-safe = Recherche du taux sûr
 
 panel-sample-aorta = Aorte abdominale
 panel-sample-coronary = Artères coronaires
+panel-sample-aorta-nets = Aorte abdominale par surface nets
 
 ## Les équations
 

@@ -33,6 +33,8 @@ report-size = Taille
 report-size-mm = { $x } × { $y } × { $z } mm
 report-axes = Axes
 report-axes-unknown = inconnus
+report-threshold = Seuil
+report-threshold-moves = { $value } ; plus bas de 10 %, la paroi serait { $lower } mm plus à l'extérieur ; plus haut de 10 %, { $higher } mm
 
 ## Réglages
 

@@ -20,10 +20,7 @@ verdict-stopped = La mesure a été annulée, ou le calcul s'est arrêté : mod
 # $text is what is said of the surface, a sentence: that it is a sample.
 verdict-sample = Exemple : { $text }
 verdict-what-to-do = Que faire
-verdict-findings = { $count ->
-    [one] { $count } constat
-   *[other] { $count } constats
-}
+verdict-findings = Détails
 verdict-list-grave = À vérifier
 verdict-list-notes = Remarques
 verdict-notes = { $count ->
@@ -100,6 +97,7 @@ verdict-crossing-before = { $count ->
 verdict-narrower = À l'ouverture, la { $name } est plus étroite de { $percent } % que de part et d'autre, sur { $length } mm : { $reference }.
 verdict-wider = À l'ouverture, la { $name } est plus large de { $percent } % que de part et d'autre, sur { $length } mm : { $reference }.
 verdict-few-iterations = Trop peu d'itérations pour cette bande passante : il en faut davantage pour lisser.
+verdict-not-smoothed = Rien n'est lissé : si la surface a les marches de son examen, elles sont encore là, et un guide s'y accroche.
 verdict-shortfall-topology = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : en retirer davantage fermerait une extrémité ouverte ou pincerait un vaisseau
 verdict-shortfall-geometry = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : en retirer davantage replierait la surface sur elle-même
 verdict-shortfall-complex = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : le reste se trouve sur des arêtes de plus de deux triangles, qui restent telles quelles

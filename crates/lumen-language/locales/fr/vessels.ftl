@@ -58,9 +58,9 @@ vessels-narrower-over = { $percent } % plus étroit sur { $length } mm, à { $a
 vessels-wider-over = { $percent } % plus large sur { $length } mm, à { $at } mm
 vessels-uneven-both = { $narrower } ; { $wider }
 # Le diamètre, la référence, et les endroits le long du vaisseau où elle est mesurée.
-vessels-reference-between = { $diameter } sur { $reference } mm, d'après les diamètres à { $from } et { $to } mm
-vessels-reference-at = { $diameter } sur { $reference } mm, d'après le diamètre à { $at } mm
-vessels-reference = { $diameter } sur { $reference } mm
+vessels-reference-between = { $diameter } au lieu de { $reference } mm, d'après les diamètres à { $from } et { $to } mm
+vessels-reference-at = { $diameter } au lieu de { $reference } mm, d'après le diamètre à { $at } mm
+vessels-reference = { $diameter } au lieu de { $reference } mm
 vessels-table = { $name }, tolérance { $tolerance } %
 # Le suit après une virgule.
 vessels-table-measured = mesuré sur { $coverage }

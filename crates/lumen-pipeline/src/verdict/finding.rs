@@ -118,6 +118,9 @@ messages! {
         /// The filter misses its pass band.
         "verdict-few-iterations" FewIterations =>
             "Too few iterations for this pass band: more are needed to smooth.",
+        /// Nothing is smoothed.
+        "verdict-not-smoothed" NotSmoothed =>
+            "Nothing is smoothed: if the surface has the steps of its scan, they are still there, and a wire catches on them.",
     } or {
         /// The size of the surface is unusual for vessels.
         Size(UnusualSize),

@@ -110,7 +110,6 @@ impl Verdict {
             Err(why) => Err(why.clone()),
         });
         let entering = report.after_connectivity.triangles;
-        let takes_more = |percent: &f64| report.output.triangles < rate(*percent).triangles(entering);
         // A coarser level may open a vessel again.
         let is_open = report.narrowing.is_some_and(|found| found.pinched_places == 0);
         let pinch = report.pinch.as_ref().filter(|pinch| !is_open && report.output.triangles <= pinch.triangles);
@@ -122,12 +121,22 @@ impl Verdict {
             shortfall: pipeline.reduced().and_then(|reduced| reduced.level.shortfall.as_ref()),
             pinch,
             calibre: found.as_ref(),
-            safe_percent: report.safe.as_ref().and_then(|safe| safe.percent).filter(takes_more),
+            safe_percent: report
+                .safe
+                .as_ref()
+                .and_then(|safe| safe.percent)
+                .filter(|&percent| takes_more(report.output.triangles, percent, entering)),
             left_out: pipeline.connectivity().and_then(|found| LeftOut::of(&found.components, report.settings.keep)),
             faults: None,
             rest: Rest::NotAsked,
         })
     }
+}
+
+/// Whether a level of so many triangles takes more away from the `entering` than a rate in percent: it may have one fewer than
+/// its rate.
+pub fn takes_more(triangles: usize, percent: f64, entering: usize) -> bool {
+    triangles + 1 < rate(percent).triangles(entering)
 }
 
 /// The target of a rate in percent, to a tenth.
@@ -254,6 +263,9 @@ fn of_report(known: &Known<'_>, report: &Report) -> Vec<Finding> {
     findings.extend(known.shortfall.map(|shortfall| Finding::note(shortfall.message())));
     if report.pass_band_missed {
         findings.push(Finding::note(FindingKind::FewIterations));
+    }
+    if report.settings.smoothing.iterations == 0 {
+        findings.push(Finding::note(FindingKind::NotSmoothed).helped_by(suit(known)));
     }
     findings.extend(report.volume_held_warning().map(Finding::note));
     findings

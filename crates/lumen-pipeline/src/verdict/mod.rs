@@ -7,5 +7,5 @@ mod judging;
 mod written;
 
 pub use finding::{Finding, FindingKind, Head, HeadText, Place, PlaceLabel, Remedied, Remedy, RemedyLabel, Verdict};
-pub use judging::{Known, Rest, rate};
+pub use judging::{Known, Rest, rate, takes_more};
 pub use written::{FindingReport, PlaceReport, RemedyReport, VerdictReport};

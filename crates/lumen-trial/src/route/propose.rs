@@ -179,7 +179,7 @@ pub fn phantom_task(sample: Sample) -> (Entry, Vec3) {
         vessels.iter().find(|vessel| vessel.name == name).unwrap_or_else(|| unreachable!("{sample} has a {name}"))
     };
     match sample {
-        Sample::Aorta => {
+        Sample::Aorta | Sample::AortaNets => {
             let iliac = vessel("right common iliac artery");
             let last = iliac.stations.len() - 1;
             let at = back(iliac, last, 8.0);

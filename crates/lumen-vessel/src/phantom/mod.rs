@@ -1,8 +1,8 @@
 //! Vessel trees that Lumen makes itself, to try everything on without a file.
 //!
 //! A sample is made the way a segmented scan is: vessels with published dimensions ([`vessels`]) are sampled as a
-//! binary mask on an anisotropic, CT-like grid, and the mask is cut by marching cubes. So the surface has the
-//! stair-steps of a segmentation, open ends where vessels leave the volume, and a few detached specks of noise.
+//! binary mask on an anisotropic, CT-like grid, and the mask is cut by marching cubes, or one by surface nets. So the surface
+//! has the stair-steps of a segmentation, open ends where vessels leave the volume, and a few detached specks of noise.
 //! Coordinates are LPS millimetres: x to the patient's left, y to the back, z up.
 //!
 //! The same sample and count give the same bytes on every platform.
@@ -16,6 +16,7 @@ mod vessel;
 use std::fmt;
 use std::ops::ControlFlow;
 use std::str::FromStr;
+use std::sync::Arc;
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -24,7 +25,7 @@ use thiserror::Error;
 use field::Field;
 use lumen_mesh::{TriMesh, components};
 use lumen_message::messages;
-use lumen_volume::MarchingCubes;
+use lumen_volume::{Geometry, Grid, MarchingCubes, Mask as _, Relaxation, Samples, Selection, surface_nets};
 pub use vessel::{Station, Vessel};
 
 /// The fewest triangles [`generate`] makes.
@@ -50,17 +51,21 @@ pub enum Sample {
     Aorta,
     /// Aortic root and arch with the coronary arteries.
     Coronary,
+    /// The mask of [`Self::Aorta`], its surface made by surface nets.
+    #[serde(rename = "aorta-nets")]
+    AortaNets,
 }
 
 impl Sample {
     /// Every sample, in the order of menus.
-    pub const ALL: [Self; 2] = [Self::Aorta, Self::Coronary];
+    pub const ALL: [Self; 3] = [Self::Aorta, Self::Coronary, Self::AortaNets];
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Aorta => "aorta",
             Self::Coronary => "coronary",
+            Self::AortaNets => "aorta-nets",
         }
     }
 
@@ -69,6 +74,7 @@ impl Sample {
         match self {
             Self::Aorta => "Abdominal aorta",
             Self::Coronary => "Coronary arteries",
+            Self::AortaNets => "Abdominal aorta by surface nets",
         }
     }
 
@@ -77,6 +83,7 @@ impl Sample {
         match self {
             Self::Aorta => SampleName::Aorta,
             Self::Coronary => SampleName::Coronary,
+            Self::AortaNets => SampleName::AortaNets,
         }
     }
 
@@ -86,13 +93,14 @@ impl Sample {
         match self {
             Self::Aorta => 74_307,
             Self::Coronary => 380_000,
+            Self::AortaNets => 74_328,
         }
     }
 
     /// Distance in mm between points in a slice that gives [`Self::default_triangles`] to the triangle.
     fn default_spacing(self) -> f64 {
         match self {
-            Self::Aorta => 0.593_508,
+            Self::Aorta | Self::AortaNets => 0.593_508,
             Self::Coronary => 0.398_353,
         }
     }
@@ -100,7 +108,7 @@ impl Sample {
     /// The lumen, with islands, for a grid of the given spacing.
     fn field(self, spacing: DVec3) -> Field {
         let (vessels, bulges, seed) = match self {
-            Self::Aorta => (aorta::vessels(), Vec::new(), 1),
+            Self::Aorta | Self::AortaNets => (aorta::vessels(), Vec::new(), 1),
             Self::Coronary => (coronary::vessels(), coronary::sinuses(), 2),
         };
         let mut field = Field::new(&vessels, &bulges, spacing);
@@ -117,7 +125,7 @@ impl fmt::Display for Sample {
 
 /// There is no sample of this name.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("there is no sample {name:?}; there are \"aorta\" and \"coronary\"")]
+#[error("there is no sample {name:?}; there are \"aorta\", \"coronary\" and \"aorta-nets\"")]
 pub struct UnknownSample {
     /// The name that was asked for.
     pub name: String,
@@ -164,13 +172,15 @@ messages! {
         "panel-sample-aorta" Aorta => "Abdominal aorta",
         /// Of [`Sample::Coronary`].
         "panel-sample-coronary" Coronary => "Coronary arteries",
+        /// Of [`Sample::AortaNets`].
+        "panel-sample-aorta-nets" AortaNets => "Abdominal aorta by surface nets",
     }
 }
 
 /// The vessels of a sample, parents before branches, in mm.
 pub fn vessels(sample: Sample) -> Vec<Vessel> {
     match sample {
-        Sample::Aorta => aorta::vessels(),
+        Sample::Aorta | Sample::AortaNets => aorta::vessels(),
         Sample::Coronary => coronary::vessels(),
     }
 }
@@ -243,6 +253,9 @@ fn sampled(
     let field = sample.field(DVec3::new(spacing, spacing, spacing * SLICE_RATIO));
     let mut grid = field.grid();
     grid.origin -= grid.spacing * DVec3::from(shift);
+    if sample == Sample::AortaNets {
+        return nets(&field, grid, progress);
+    }
     let mut surface = MarchingCubes::new(&grid, field.mask(&grid));
     while !surface.is_done() {
         surface.advance_layer();
@@ -251,6 +264,38 @@ fn sampled(
         }
     }
     Ok(surface.into_mesh())
+}
+
+/// The surface by surface nets, without what lies behind open ends.
+fn nets(
+    field: &Field,
+    grid: Geometry,
+    progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
+) -> Result<TriMesh, PhantomError> {
+    /// The part of the time that the mask takes.
+    const MASKED: f32 = 0.5;
+    let [nx, ny, nz] = grid.size;
+    let (mut inside, mut runs) = (vec![0; grid.points()], Vec::new());
+    let mut mask = field.mask(&grid);
+    for k in 0..nz {
+        mask.begin_slice(k);
+        for (j, row) in inside[k * nx * ny..][..nx * ny].chunks_exact_mut(nx).enumerate() {
+            runs.clear();
+            mask.row(j, &mut runs);
+            runs.iter().for_each(|run| row[run.clone()].fill(1));
+        }
+        if progress(MASKED * (k + 1) as f32 / nz as f32).is_break() {
+            return Err(PhantomError::Cancelled);
+        }
+    }
+    let made = Grid::new(grid, Samples::U8(inside), 1.0, 0.0)
+        .and_then(|mask| surface_nets(&Arc::new(mask), Selection::AnyLabel, None, Relaxation::default()));
+    // A grid that is too coarse has no vessel in it.
+    let mesh = made.map_or_else(|_| TriMesh::default(), |made| made.mesh);
+    Ok(mesh.filtered(|t| {
+        let [a, b, c] = mesh.corners(t).map(DVec3::from);
+        !field.is_behind_an_end((a + b + c) / 3.0, 0.0)
+    }))
 }
 
 /// Triangles of the largest component.

@@ -37,7 +37,7 @@ fn assert_is_a_tree(sample: Sample, mesh: &TriMesh) {
     assert_eq!(euler, 2 - loops.len() as i64);
 }
 
-fn assert_is_a_clean_surface_with_islands(mesh: &TriMesh) {
+fn assert_is_a_clean_surface_with_islands(mesh: &TriMesh, least_area: f64) {
     let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
     let counts = topology.edge_counts();
     assert_eq!((counts.non_manifold, counts.flipped), (0, 0));
@@ -48,7 +48,7 @@ fn assert_is_a_clean_surface_with_islands(mesh: &TriMesh) {
     sorted.iter_mut().for_each(|t| t.sort_unstable());
     sorted.sort_unstable();
     assert!(sorted.windows(2).all(|pair| pair[0] != pair[1]));
-    assert!((0..mesh.triangles.len()).all(|t| triangle_area(mesh.corners(t)) > 1e-3));
+    assert!((0..mesh.triangles.len()).all(|t| triangle_area(mesh.corners(t)) > least_area));
 
     let mut sizes = components(mesh.positions.len(), &mesh.triangles).triangle_counts;
     sizes.sort_unstable();
@@ -110,8 +110,17 @@ fn the_aorta_is_what_the_paper_counts_and_anatomy_says() {
     let mesh = default_mesh(Sample::Aorta);
     assert_eq!(largest(&mesh).triangles.len(), 74_307);
     assert_is_a_tree(Sample::Aorta, &mesh);
-    assert_is_a_clean_surface_with_islands(&mesh);
+    assert_is_a_clean_surface_with_islands(&mesh, 1e-3);
     assert_lumens_have_their_diameters(Sample::Aorta, &mesh, &[]);
+}
+
+#[test]
+fn the_aorta_by_surface_nets_is_the_same_tree() {
+    let mesh = default_mesh(Sample::AortaNets);
+    assert_eq!(largest(&mesh).triangles.len(), Sample::AortaNets.default_triangles());
+    assert_is_a_tree(Sample::AortaNets, &mesh);
+    assert_is_a_clean_surface_with_islands(&mesh, 0.0);
+    assert_lumens_have_their_diameters(Sample::AortaNets, &mesh, &[]);
 }
 
 #[test]
@@ -120,7 +129,7 @@ fn the_coronary_tree_is_whole_down_to_branches_of_1_5_mm() {
     assert_eq!(largest(&mesh).triangles.len(), Sample::Coronary.default_triangles());
     assert!(Sample::Coronary.default_spacing() <= 0.4);
     assert_is_a_tree(Sample::Coronary, &mesh);
-    assert_is_a_clean_surface_with_islands(&mesh);
+    assert_is_a_clean_surface_with_islands(&mesh, 1e-3);
     let smallest = assert_lumens_have_their_diameters(Sample::Coronary, &mesh, &["left main coronary artery"]);
     assert!((1.2..1.8).contains(&smallest), "{smallest}");
 }

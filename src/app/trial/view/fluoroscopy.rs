@@ -74,7 +74,7 @@ impl Fluoroscopy {
                 say!("trial-beam-off")
             };
             plate(ui, inner.left_top() + vec2(0.0, 44.0), Align2::LEFT_TOP, &state, false);
-            plate(ui, inner.left_bottom() - vec2(0.0, 22.0), Align2::LEFT_BOTTOM, &trial.name, false);
+            plate(ui, inner.left_bottom() - vec2(0.0, 22.0), Align2::LEFT_BOTTOM, &trial.title, false);
             if trial.session().is_some() {
                 scale_bar(ui, inner, rect, arm.field_mm);
             }

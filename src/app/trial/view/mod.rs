@@ -244,7 +244,7 @@ impl TrialView {
         let legend = (is_on && rect.height() > 300.0).then(|| peak_legend(end));
         let title = if is_on { say!("trial-view-title") } else { say!("trial-title") };
         let axes = document.map(|document| document.import.axes).unwrap_or_default();
-        let name = (rect.width() >= WRITTEN_OVER).then_some(trial.name.as_str());
+        let name = (rect.width() >= WRITTEN_OVER).then_some(trial.title.as_str());
         let writing =
             overlay::Writing { title: &title, name, camera: &camera, axes, legend, array: None, is_alone: false };
         overlay::show(ui, rect, &writing);

@@ -41,7 +41,7 @@ impl TrialView {
             plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), false);
         }
         if rect.height() > 200.0 {
-            plate(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, &trial.name, false);
+            plate(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, &trial.title, false);
         }
     }
 }

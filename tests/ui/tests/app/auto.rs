@@ -39,12 +39,16 @@ fn a_coarse_surface_opens_as_far_reduced_as_is_safe_and_that_is_told() {
     assert!(says(&harness, &format!("Automatic: {safe:.1} %, as far as is safe")));
     assert!(says(&harness, &format!("Reduced by {safe:.1} %: more would not be safe.")));
     assert!(says(&harness, "Safe to simulate on"));
+    let is_there = |harness: &Harness<'_, LumenApp>| {
+        harness.get_by_role_and_label(Role::Button, "Go there").accesskit_node().is_disabled()
+    };
+    assert!(is_there(&harness), "one is there");
     let before = shown(&harness);
     // A hand at the slider makes it a number; the way back is a click.
     press_at(&mut harness, "Reduction", 0.95);
     settle_wholly(&mut harness);
     assert!(matches!(target(&harness), Target::Reduction(rate) if rate > 900), "{:?}", target(&harness));
-    assert!(says(&harness, "to look at"));
+    assert!(says(&harness, "to look at") && !is_there(&harness));
     harness.get_by_role_and_label(Role::Button, "Reset reduction").click();
     settle_wholly(&mut harness);
     assert_eq!((target(&harness), shown(&harness)), (Target::Auto, before));

@@ -211,7 +211,7 @@ fn a_surface_of_one_triangle_leaves_the_settings_for_the_next() {
     assert_eq!(harness.state().state().settings.target, Target::default());
     harness.get_by_role_and_label(Role::Button, "Sample").click();
     harness.run_steps(3);
-    harness.get_by_label_contains("orta").click();
+    harness.get_by_label("Abdominal aorta").click();
     harness.run_steps(3);
     settle(&mut harness);
     assert!((7_429..=7_430).contains(&shown(&harness)), "Table II at 90 %: {}", shown(&harness));

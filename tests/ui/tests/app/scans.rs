@@ -10,6 +10,7 @@ use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::scan::NamedFile;
 use lumen::io::{Axes, Format, ImportOptions, read, write};
+use lumen::language::{self, Language};
 use lumen::phantom::{Sample, generate};
 use lumen_ui_tests::{DESKTOP, Kept, Memory, app, offered, page, says, settle, unfold};
 
@@ -30,6 +31,18 @@ pub(crate) fn ball(orientation: &str) -> PlatformEvent {
         bytes.extend(((180.0 + 100.0 * depth).clamp(-1000.0, 500.0) as i16).to_le_bytes());
     }
     PlatformEvent::Scan { files: vec![NamedFile::new("ball.mha", bytes)] }
+}
+
+/// The same ball as a mask.
+fn mask() -> PlatformEvent {
+    let head = format!(
+        "ObjectType = Image\nNDims = 3\nOffset = 0 0 0\nElementSpacing = 1 1 1\nDimSize = {SIZE} {SIZE} {SIZE}\n\
+         ElementType = MET_UCHAR\nElementDataFile = LOCAL\n"
+    );
+    let along = || (0..SIZE).map(|index| index as f64 - 23.5);
+    let places = along().flat_map(|z| along().flat_map(move |y| along().map(move |x| (x * x + y * y + z * z).sqrt())));
+    let bytes = head.into_bytes().into_iter().chain(places.map(|r| u8::from(r < 15.0))).collect();
+    PlatformEvent::Scan { files: vec![NamedFile::new("mask.mha", bytes)] }
 }
 
 /// Opens the ball and makes its surface.
@@ -66,6 +79,24 @@ fn say(harness: &mut Harness<'_, LumenApp>, choice: &str) {
     harness.run_steps(3);
     harness.get_by_label(choice).click();
     harness.run_steps(6);
+}
+
+#[test]
+fn both_ways_from_a_mask_stand_beside_each_other_and_over_no_words() {
+    for language in Language::ALL {
+        language::speak(language, language::built_in(language).unwrap());
+        let (mut harness, memory) = app(DESKTOP);
+        settle(&mut harness);
+        memory.borrow_mut().events.push_back(mask());
+        harness.run_steps(40);
+        let rect = |text: &str| harness.get_by_label(text).rect();
+        let [words, nets, cubes] =
+            [lumen::say!("scan-method"), lumen::say!("scan-surface-nets"), lumen::say!("scan-marching-cubes")]
+                .map(|text| rect(&text));
+        assert!(!words.intersects(nets) && !words.intersects(cubes) && !nets.intersects(cubes), "{language:?}");
+        assert!(words.left() >= 0.0 && cubes.left() >= 0.0, "{language:?}: {words}, {cubes}");
+    }
+    language::speak(Language::English, &[]);
 }
 
 #[test]

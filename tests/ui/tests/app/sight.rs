@@ -210,7 +210,7 @@ fn the_sample_invites_to_open_a_vessel_until_one_is_open() {
     assert_eq!(invitation(&harness, "open one"), None);
     harness.get_by_role_and_label(Role::Button, "Sample").click();
     harness.run_steps(3);
-    harness.get_by_label_contains("orta").click();
+    harness.get_by_label("Abdominal aorta").click();
     harness.run_steps(3);
     settle(&mut harness);
     assert_eq!(invitation(&harness, "open one"), None, "who has opened one knows how");

@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Settings, Target};
-use lumen_ui_tests::{DESKTOP, Kept, app, app_in_full, page, says, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, Kept, app, app_in_full, page, says, settle, settle_wholly, tube};
 
 use crate::controls::press_at;
 use crate::recovery::{notice, tell};
@@ -204,6 +204,27 @@ fn a_lesson_that_is_closed_gives_back_settings_and_colours() {
     click(&mut harness, "Redo");
     settle(&mut harness);
     assert_eq!(harness.state().state().settings, settings);
+}
+
+/// A lesson begins with a sample: the surface that was open before is open again after it, with what was measured there.
+#[test]
+fn a_lesson_that_is_closed_gives_back_the_file_that_was_open() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let bytes = tube(3.0, 12.0, 0.5);
+    tell(&mut harness, &memory, PlatformEvent::Chosen { name: "tube.obj".to_owned(), bytes });
+    settle(&mut harness);
+    press_at(&mut harness, "Iterations", 0.2);
+    settle(&mut harness);
+    let settings = harness.state().state().settings.clone();
+    let name = |harness: &Harness<'_, LumenApp>| harness.state().state().document.as_ref().unwrap().name.clone();
+    menu(&mut harness, "What decimation keeps");
+    settle(&mut harness);
+    assert_eq!(name(&harness), "Abdominal aorta");
+    click(&mut harness, "Close lesson");
+    settle(&mut harness);
+    assert_eq!((name(&harness), &harness.state().state().settings), ("tube.obj".to_owned(), &settings));
+    assert!(notice(&harness).starts_with("tube.obj is open again"), "{}", notice(&harness));
 }
 
 #[test]

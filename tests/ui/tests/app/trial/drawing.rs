@@ -8,7 +8,7 @@ use lumen::engine::trial::{TrialCommand, TrialEvent};
 use lumen::trial::frame::{Frame, Touch};
 use lumen::trial::setup::Input;
 use lumen_ui_tests::told::{
-    App, DESKTOP, FIRST, PHONE, asked, at_entry, frame, id_of_start, now, on, press, ready, says, start, tell,
+    App, DESKTOP, FIRST, PHONE, asked, at_entry, frame, id_of_start, now, on, press, ready, retarget, says, start, tell,
 };
 use lumen_ui_tests::{app, drag, settle};
 
@@ -99,7 +99,8 @@ fn a_restart_shows_the_wire_at_its_entry_at_once_and_then_what_is_told() {
     settle(&mut harness);
     start(&mut harness);
     let id = id_of_start(&asked(&memory));
-    tell(&mut harness, &memory, [ready(id), now(id, at_entry())]);
+    // The scale of forces is that of both.
+    tell(&mut harness, &memory, [ready(id), now(id, frame()), now(id, at_entry())]);
     let entry = picture(&mut harness, "Trial view");
     tell(&mut harness, &memory, [now(id, frame())]);
     assert!(picture(&mut harness, "Trial view") != entry);
@@ -148,6 +149,19 @@ fn the_fluoroscopy_is_the_large_picture_on_demand_with_the_others_over_it() {
         assert_ne!(harness.state().trial().open().unwrap().carm.is_large, is_large, "{key:?}");
     }
     assert!(views(&harness) == beside && harness.state().trial().is_open() && asked(&memory).is_empty());
+}
+
+/// Two runs are compared by eye: the weaker one fills less of its bar.
+#[test]
+fn the_scale_of_forces_stays_from_run_to_run() {
+    let (mut harness, memory) = on(DESKTOP);
+    let felt = |id, force| TrialEvent::Felt { id, touches: vec![Touch { at: [0.0; 3], triangle: 0, force }] };
+    tell(&mut harness, &memory, [felt(FIRST, 0.9), now(FIRST, Frame { step: 900, ..frame() })]);
+    assert!(says(&harness, "Wall force, up to 1 N"));
+    retarget(&mut harness);
+    let id = id_of_start(&asked(&memory));
+    tell(&mut harness, &memory, [ready(id), now(id, frame())]);
+    assert!(says(&harness, "Wall force, up to 1 N"), "0.35 N of it");
 }
 
 #[test]
