@@ -1,6 +1,8 @@
 //! What assistive tools are told of a control: what it is, what it is called, where it stands.
 
-use egui::{Response, RichText, Role, Ui, WidgetInfo};
+use egui::{AsIdSalt, Response, RichText, Role, Ui, WidgetInfo};
+
+use crate::say;
 
 /// Writes a heading, and tells that it is one, of the second level: the first is the page's own. AccessKit counts from 0.
 pub(super) fn heading(ui: &mut Ui, text: &str) {
@@ -12,6 +14,15 @@ pub(super) fn heading(ui: &mut Ui, text: &str) {
 /// Tells what a control is called.
 pub(super) fn name(response: &Response, kind: Role, label: &str) {
     response.widget_info(|| WidgetInfo::labeled(kind, response.enabled(), label));
+}
+
+/// Tells what the edge of a panel is called that is drawn to another size: egui says it in English. `panel` is the panel's
+/// name in `ui`.
+pub(super) fn name_edge(ui: &Ui, panel: impl AsIdSalt) {
+    let edge = ui.scope_id().with(panel).with("__resize");
+    if ui.ctx().has_accesskit_node(edge) {
+        ui.ctx().accesskit_node_builder(edge, |node| node.set_label(say!("app-panel-edge")));
+    }
 }
 
 /// Tells what a control is called and where it stands.

@@ -1,7 +1,7 @@
 //! The panel of a phone: a sheet that a finger draws up from below by its handle, and that comes to rest at one of three
 //! heights.
 
-use egui::{Context, EventFilter, Key, Rect, Role, Sense, Ui, vec2};
+use egui::{Align2, Context, EventFilter, Key, Rect, Role, Sense, TextStyle, Ui, vec2};
 
 use super::assist::name;
 use super::theme::FINGER;
@@ -47,6 +47,8 @@ impl Stop {
 pub(super) enum Content {
     /// Something with a head that stays in sight, by its place in the list of panels; `None` for the method.
     Headed(Option<usize>),
+    /// The method where something else needs the room: at the lowest its handle is seen, and no more.
+    Folded,
     /// Something without.
     Plain,
 }
@@ -56,11 +58,11 @@ pub(super) enum Content {
 struct Stops([f32; 3]);
 
 impl Stops {
-    /// Of a window that has `room` points for panel and views, `half` as a part of it, and `peek` points for what is seen
-    /// at the lowest, without its handle.
+    /// Of a window that has `room` points for panel and views, `half` of them at the second stop, and `peek` points for what
+    /// is seen at the lowest, without its handle.
     fn new(room: f32, half: f32, peek: f32) -> Self {
         let low = FINGER + peek;
-        let half = (low + MORE).max(room * half).min(room * FULL).max(low);
+        let half = (low + MORE).max(half).min(room * FULL).max(low);
         Self([low, half, half.max(room * FULL)])
     }
 
@@ -72,8 +74,8 @@ impl Stops {
 
 /// How far the panel is drawn up.
 pub(super) struct Drawer {
-    /// Where what has a head rests, and where what has none does: that would show nothing at the lowest.
-    stops: [Stop; 2],
+    /// Where each kind of content rests: what has no head would show nothing at the lowest.
+    stops: [Stop; 3],
     /// Its height while a finger draws it, in points.
     drawn: Option<f32>,
     content: Content,
@@ -88,7 +90,7 @@ pub(super) struct Drawer {
 impl Default for Drawer {
     fn default() -> Self {
         Self {
-            stops: [Stop::Peek, Stop::Half],
+            stops: [Stop::Peek, Stop::Peek, Stop::Half],
             drawn: None,
             content: Content::Headed(None),
             head: HEAD,
@@ -103,9 +105,17 @@ impl Drawer {
     pub(super) fn take(&mut self, content: Content, room: f32, half: f32) {
         if content != self.content {
             (self.content, self.width) = (content, 0.0);
+            if content == Content::Folded {
+                // Each that needs the room begins with it.
+                self.stops[self.kind()] = Stop::Peek;
+            }
         }
-        let peek = if content == Content::Plain { BELOW } else { self.head + BELOW };
-        self.heights = Stops::new(room, half, peek);
+        let (peek, least) = match content {
+            Content::Headed(_) => (self.head + BELOW, 0.0),
+            Content::Folded => (0.0, FINGER + self.head + BELOW),
+            Content::Plain => (BELOW, 0.0),
+        };
+        self.heights = Stops::new(room, least.max(room * half), peek);
     }
 
     /// Takes how high the head is. It grows where its words need more room and does not shrink again with them: the views
@@ -135,12 +145,20 @@ impl Drawer {
         self.height() < self.heights.0[0] + MORE / 4.0
     }
 
+    fn kind(&self) -> usize {
+        match self.content {
+            Content::Headed(_) => 0,
+            Content::Folded => 1,
+            Content::Plain => 2,
+        }
+    }
+
     fn stop(&self) -> Stop {
-        self.stops[usize::from(self.content == Content::Plain)]
+        self.stops[self.kind()]
     }
 
     fn rest(&mut self, stop: Stop, ctx: &Context) {
-        self.stops[usize::from(self.content == Content::Plain)] = stop;
+        self.stops[self.kind()] = stop;
         ctx.request_repaint();
     }
 
@@ -170,6 +188,11 @@ impl Drawer {
         let visuals = ui.style().interact(&response);
         let grip = Rect::from_center_size(rect.center(), vec2(40.0, 5.0));
         ui.painter().rect_filled(grip, 2.5, visuals.fg_stroke.color.gamma_multiply(0.6));
+        if self.content == Content::Folded && self.peeks() {
+            let (at, font) = (rect.left_center(), TextStyle::Small.resolve(ui.style()));
+            let colour = ui.visuals().weak_text_color();
+            ui.painter().text(at, Align2::LEFT_CENTER, say!("app-panel-folded"), font, colour);
+        }
         if response.has_focus() {
             let ring = egui::Stroke::new(2.0, ui.visuals().hyperlink_color);
             ui.painter().rect_stroke(rect, 4.0, ring, egui::StrokeKind::Inside);
@@ -185,7 +208,7 @@ mod tests {
 
     #[test]
     fn it_rests_at_the_nearest_stop() {
-        let stops = Stops::new(600.0, 0.45, 120.0);
+        let stops = Stops::new(600.0, 270.0, 120.0);
         for (height, stop) in [(0.0, Stop::Peek), (200.0, Stop::Peek), (240.0, Stop::Half), (400.0, Stop::Full)] {
             assert_eq!(stops.nearest(height), stop, "{height}");
         }
@@ -193,8 +216,13 @@ mod tests {
 
     #[test]
     fn each_stop_shows_more_than_the_one_below_it() {
-        for (room, half, peek) in [(730.0, 0.45, 240.0), (530.0, 0.35, 240.0), (912.0, 0.45, 150.0), (730.0, 0.45, 8.0)]
-        {
+        for (room, half, peek) in [
+            (730.0, 328.0, 240.0),
+            (530.0, 185.0, 240.0),
+            (912.0, 410.0, 150.0),
+            (730.0, 328.0, 8.0),
+            (500.0, 300.0, 0.0),
+        ] {
             let Stops([low, half, full]) = Stops::new(room, half, peek);
             assert!(low + 32.0 <= half && half + 16.0 <= full && full < room, "{low} {half} {full} of {room}");
         }

@@ -56,8 +56,15 @@ pub(super) struct Legend {
 
 const MARGIN: f32 = 12.0;
 
-/// Below this height what a view says does not fit one below the other, in points.
+/// Below these heights what a view says does not fit one below the other, without colours and with them, in points.
 const LOW: f32 = 120.0;
+const LOW_COLOURED: f32 = 280.0;
+
+/// Below this height there is room for a title alone, and that it is not for clinical decisions, in points.
+const LOWEST: f32 = 72.0;
+
+/// Colours are told where their bar is at least this high, in points.
+const LEAST_BAR: f32 = 32.0;
 
 /// Says that it is not for clinical decisions: in the bar below, or, where that has no room for it, in each view.
 pub(super) const NOT_CLINICAL: Key = Key("about-not-clinical");
@@ -71,24 +78,30 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
         halo::text(&painter, inner.left_top(), Align2::LEFT_TOP, writing.title, FontId::proportional(14.0), text);
     labels::stands(ui.ctx(), title);
     let small = FontId::proportional(12.0);
-    if let Some(name) = writing.name {
+    let is_coloured = writing.legend.is_some() || writing.array.is_some();
+    if let Some(name) = writing.name.filter(|_| inner.height() >= LOWEST) {
         let galley = painter.layout(name.to_owned(), small.clone(), weak, inner.width() * 0.6);
         labels::stands(ui.ctx(), Rect::from_min_size(inner.left_top() + vec2(0.0, 20.0), galley.size()));
         halo::galley(&painter, inner.left_top() + vec2(0.0, 20.0), galley, weak);
         scale_bar(&painter, inner, rect.height(), writing.camera, text);
         // Legends stand at the right, and in a low view there is room for one of the two.
-        if inner.height() >= LOW {
+        if has_axes(inner, is_coloured) {
             orientation(&painter, inner, writing.camera, writing.axes, text);
         }
     }
     if writing.is_alone || theme::is_narrow(ui.ctx()) {
         let (place, align) = if inner.height() >= LOW {
             (inner.right_bottom(), Align2::RIGHT_BOTTOM)
-        } else {
+        } else if inner.height() >= LOWEST {
             (inner.left_bottom() - vec2(0.0, 24.0), Align2::LEFT_BOTTOM)
+        } else {
+            (inner.left_top() + vec2(0.0, 20.0), Align2::LEFT_TOP)
         };
         let place = halo::text(&painter, place, align, &NOT_CLINICAL.say(), small, weak);
         labels::stands(ui.ctx(), place);
+    }
+    if bar_in(inner).height() < LEAST_BAR {
+        return;
     }
     if let Some(colours) = &writing.legend {
         legend(&painter, inner, colours, text);
@@ -101,6 +114,11 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
         Some(array) => arrays::label_legend(&painter, inner, array, text),
         None => {}
     }
+}
+
+/// Whether a view has room for the axes.
+fn has_axes(inner: Rect, is_coloured: bool) -> bool {
+    inner.height() >= if is_coloured { LOW_COLOURED } else { LOW }
 }
 
 /// Draws a scale bar and the axes over a picture, and nothing else.
@@ -211,8 +229,14 @@ pub(super) fn colour_bar_in(rect: Rect) -> Rect {
     bar_in(rect.shrink(MARGIN))
 }
 
+/// In the middle, as far as the axes above and what is written below leave room; in a low view without axes, between the
+/// words of the bar itself.
 fn bar_in(inner: Rect) -> Rect {
-    Rect::from_min_size(pos2(inner.right() - 12.0, inner.center().y - 80.0), vec2(12.0, 160.0))
+    let above = if has_axes(inner, true) { 126.0 } else { 42.0 };
+    let [first, last] = [inner.top() + above, inner.bottom() - 62.0];
+    let height = (last - first).clamp(0.0, 160.0);
+    let top = (inner.center().y - height / 2.0).min(last - height).max(first);
+    Rect::from_min_size(pos2(inner.right() - 12.0, top), vec2(12.0, height))
 }
 
 /// Draws the map's colours, the first below.
@@ -268,7 +292,24 @@ fn legend(painter: &Painter, inner: Rect, legend: &Legend, colour: Color32) {
 
 #[cfg(test)]
 mod tests {
-    use super::round_length;
+    use super::*;
+
+    #[test]
+    fn colours_stand_between_the_axes_and_what_is_said_below() {
+        for height in [60.0_f32, 100.0, 160.0, 240.0, 290.0, 320.0, 420.0, 700.0] {
+            let inner = Rect::from_min_size(pos2(0.0, 0.0), vec2(300.0, height));
+            let bar = bar_in(inner);
+            if bar.height() < LEAST_BAR {
+                assert!(height < 200.0, "no colours in {height}");
+                continue;
+            }
+            // The title over a histogram, and the axes with the words below them.
+            let [title, axes] = [bar.top() - 40.0, if has_axes(inner, true) { 86.0 } else { 0.0 }];
+            assert!(title >= axes && bar.bottom() + 46.0 <= height, "{bar} in {height}");
+        }
+        let roomy = Rect::from_min_size(pos2(0.0, 0.0), vec2(300.0, 700.0));
+        assert_eq!((bar_in(roomy).height(), bar_in(roomy).center().y), (160.0, 350.0));
+    }
 
     #[test]
     fn scale_bars_have_round_lengths() {

@@ -37,6 +37,13 @@ const IN_VIEWS: [(Key, Key); 11] = [
     (Key("app-key-raking"), Key("app-key-raking-does")),
 ];
 
+/// What fingers do in the views, where one points.
+const BY_FINGER: [(Key, Key); 3] = [
+    (Key("app-touch-one"), Key("app-key-drag-does")),
+    (Key("app-touch-two"), Key("app-touch-two-does")),
+    (Key("app-touch-double"), Key("app-key-fit-does")),
+];
+
 /// What the other keys do.
 const OTHERS: [(Key, Key); 9] = [
     (Key("app-key-present"), Key("app-key-present-does")),
@@ -75,26 +82,48 @@ pub(super) fn show(ui: &Ui, sheet: Sheet, keys: &[(Key, Key)], report: &mut dyn 
 fn help(ui: &mut Ui, keys: &[(Key, Key)]) {
     heading(ui, &say!("app-keys"));
     ui.add_space(8.0);
-    let before = std::mem::replace(&mut ui.spacing_mut().interact_size.y, 20.0);
-    Grid::new("keys").num_columns(2).spacing([16.0, 6.0]).show(ui, |ui| {
-        for &(key, what) in keys {
-            ui.label(RichText::new(key.say()).weak());
-            ui.label(what.say());
-            ui.end_row();
+    let rows = |ui: &mut Ui, name: &str, rows: &[(Key, Key)]| {
+        if theme::is_narrow(ui.ctx()) {
+            // No room for two columns.
+            for (key, what) in rows {
+                ui.label(RichText::new(key.say()).weak());
+                ui.label(what.say());
+                ui.add_space(6.0);
+            }
+            return;
         }
+        let widest = 0.6 * ui.available_width();
+        Grid::new(name).num_columns(2).spacing([16.0, 6.0]).max_col_width(widest).show(ui, |ui| {
+            for (key, what) in rows {
+                ui.label(RichText::new(key.say()).weak());
+                ui.label(what.say());
+                ui.end_row();
+            }
+        });
+    };
+    let has_finger = theme::suits_finger(ui.ctx());
+    ScrollArea::vertical().max_height(height_inside(ui)).show(ui, |ui| {
+        // Rows of words are lower than those of controls.
+        ui.spacing_mut().interact_size.y = 20.0;
+        if has_finger {
+            rows(ui, "fingers", &BY_FINGER);
+            ui.add_space(8.0);
+            ui.label(RichText::new(say!("app-keys-keyboard")).strong());
+            ui.add_space(8.0);
+        }
+        rows(ui, "keys", keys);
     });
-    if theme::suits_finger(ui.ctx()) {
-        // For the button below.
-        ui.spacing_mut().interact_size.y = before;
-    }
+}
+
+/// The height that is left for what scrolls in a sheet: its heading, button and margins stay in the window.
+fn height_inside(ui: &Ui) -> f32 {
+    (ui.ctx().content_rect().height() - 200.0).max(120.0)
 }
 
 fn words(ui: &mut Ui) {
     heading(ui, &say!("app-glossary"));
     ui.add_space(8.0);
-    // Heading, button and margins stay in the window.
-    let height = ui.ctx().content_rect().height() - 260.0;
-    ScrollArea::vertical().max_height(height.max(120.0)).show(ui, |ui| {
+    ScrollArea::vertical().max_height(height_inside(ui)).show(ui, |ui| {
         for (word, meaning) in glossary() {
             ui.label(RichText::new(word).strong());
             wrapped(ui, &meaning, |text| text);

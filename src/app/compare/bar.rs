@@ -9,6 +9,8 @@ use super::comparison::{Cell, Comparison, MAX_COMPARED, Outcome};
 use super::difference::Difference;
 use crate::app::action::Action;
 use crate::app::assist::name;
+use crate::app::icon::{self, Icon};
+use crate::app::menus::icon_menu;
 use crate::app::record;
 use crate::language::decimal;
 use crate::pipeline::settings::Settings;
@@ -18,7 +20,8 @@ use crate::say;
 /// Cells of more triangles may turn jerkily.
 const MANY: usize = 300_000;
 
-/// What can be done; whether the button that shows the first settings everywhere is held.
+/// What can be done; whether the button that shows the first settings everywhere is held. A phone has room for one row: the
+/// rest is in a menu.
 pub(super) fn bar(
     ui: &mut Ui,
     comparison: &Comparison,
@@ -27,71 +30,86 @@ pub(super) fn bar(
     shows_first: bool,
     asked: &mut Vec<Action>,
 ) -> bool {
-    let (mut is_held, mut differing, mut is_saved) = (false, None, false);
-    let mut ask = |what| asked.push(Action::Comparison(what));
+    let mut is_held = false;
+    let mut asked = |action: Action| asked.push(action);
     ui.horizontal_wrapped(|ui| {
-        let can_add = comparison.can_add(settings);
-        let add = if is_narrow { say!("compare-add-short") } else { say!("compare-add") };
-        let add = ui.add_enabled(can_add, egui::Button::new(add));
-        name(&add, Role::Button, &say!("compare-add-long"));
-        let why_not =
-            if comparison.cells().len() >= MAX_COMPARED { say!("compare-full") } else { say!("compare-there-already") };
-        if add.on_hover_text(say!("compare-add-help")).on_disabled_hover_text(why_not).clicked() {
-            ask(OfComparison::Add);
-        }
-        if ui.button(say!("compare-figure-6")).on_hover_text(say!("compare-figure-6-help")).clicked() {
-            ask(OfComparison::Figure6);
-        }
-        if ui.button(say!("compare-figure-7")).on_hover_text(say!("compare-figure-7-help")).clicked() {
-            ask(OfComparison::Figure7);
-        }
-        let mut chosen = comparison.arrangement;
-        let list =
-            ComboBox::from_id_salt("arrangement").width(96.0).selected_text(comparison.arrangement.label().say());
-        let response = list.show_ui(ui, |ui| {
-            for choice in Arrangement::ALL {
-                ui.selectable_value(&mut chosen, choice, choice.label().say()).on_hover_text(choice.help().say());
-            }
-        });
-        name(&response.response, Role::ComboBox, &say!("compare-show-as"));
-        if chosen != comparison.arrangement {
-            ask(OfComparison::Arrange(chosen));
+        begin(ui, comparison, settings, is_narrow, &mut asked);
+        if !is_narrow {
+            let list =
+                ComboBox::from_id_salt("arrangement").width(96.0).selected_text(comparison.arrangement.label().say());
+            let response = list.show_ui(ui, |ui| arrangements(ui, comparison, &mut asked));
+            name(&response.response, Role::ComboBox, &say!("compare-show-as"));
         }
         let flicker = egui::Button::new(say!("compare-first")).sense(Sense::click_and_drag()).selected(shows_first);
         let flicker = ui.add_enabled(comparison.cells().len() > 1, flicker);
         is_held = flicker.on_hover_text(say!("compare-first-help")).is_pointer_button_down_on();
-        differing = difference(ui, comparison);
-        let save = ui.add_enabled(comparison.made().is_some(), egui::Button::new(say!("record-figure")));
-        is_saved = save.on_hover_text(say!("record-figure-help")).clicked();
-        if ui.button(say!("compare-done")).on_hover_text(say!("compare-done-help")).clicked() {
-            ask(OfComparison::Close);
+        let help = say!("compare-done-help");
+        let is_done = if is_narrow {
+            icon_menu(ui, Icon::Menu, &say!("compare-more"), &say!("compare-more-help"), &mut |ui| {
+                arrangements(ui, comparison, &mut asked);
+                ui.separator();
+                others(ui, comparison, &mut asked);
+            });
+            icon::button(ui, Icon::Close, true, &say!("compare-done"), &help).clicked()
+        } else {
+            others(ui, comparison, &mut asked);
+            ui.button(say!("compare-done")).on_hover_text(help).clicked()
+        };
+        if is_done {
+            asked(Action::Comparison(OfComparison::Close));
         }
     });
-    asked.extend(differing);
-    if is_saved {
-        asked.push(Action::Record(record::Action::Figure));
-    }
     is_held
 }
 
-/// Colours for the difference from the first, and the ways to where it is largest and back.
-fn difference(ui: &mut Ui, comparison: &Comparison) -> Option<Action> {
-    let mut asked = None;
+/// What is to be compared.
+fn begin(ui: &mut Ui, comparison: &Comparison, settings: &Settings, is_narrow: bool, asked: &mut dyn FnMut(Action)) {
+    let add = if is_narrow { say!("compare-add-short") } else { say!("compare-add") };
+    let add = ui.add_enabled(comparison.can_add(settings), egui::Button::new(add));
+    name(&add, Role::Button, &say!("compare-add-long"));
+    let why_not =
+        if comparison.cells().len() >= MAX_COMPARED { say!("compare-full") } else { say!("compare-there-already") };
+    if add.on_hover_text(say!("compare-add-help")).on_disabled_hover_text(why_not).clicked() {
+        asked(Action::Comparison(OfComparison::Add));
+    }
+    if ui.button(say!("compare-figure-6")).on_hover_text(say!("compare-figure-6-help")).clicked() {
+        asked(Action::Comparison(OfComparison::Figure6));
+    }
+    if ui.button(say!("compare-figure-7")).on_hover_text(say!("compare-figure-7-help")).clicked() {
+        asked(Action::Comparison(OfComparison::Figure7));
+    }
+}
+
+/// How the pictures may stand.
+fn arrangements(ui: &mut Ui, comparison: &Comparison, asked: &mut dyn FnMut(Action)) {
+    for choice in Arrangement::ALL {
+        let entry = ui.selectable_label(choice == comparison.arrangement, choice.label().say());
+        if entry.on_hover_text(choice.help().say()).clicked() {
+            asked(Action::Comparison(OfComparison::Arrange(choice)));
+        }
+    }
+}
+
+/// Colours for the difference from the first, the ways to where it is largest and back, and the picture for a file.
+fn others(ui: &mut Ui, comparison: &Comparison, asked: &mut dyn FnMut(Action)) {
     let toggle = egui::Button::new(say!("compare-difference")).selected(comparison.shows_difference);
     let toggle = ui.add_enabled(comparison.cells().len() > 1, toggle);
     if toggle.on_hover_text(say!("compare-difference-help")).clicked() {
-        asked = Some(Action::Comparison(OfComparison::Difference));
+        asked(Action::Comparison(OfComparison::Difference));
     }
     let patch = comparison.largest_difference().and_then(Difference::patch);
     let go = ui.add_enabled(patch.is_some(), egui::Button::new(say!("compare-most")));
     let go = go.on_hover_text(say!("compare-most-help"));
     if let Some((at, height_mm)) = patch.filter(|_| go.clicked()) {
-        asked = Some(Action::LookAt { at_mm: at.into(), height_mm });
+        asked(Action::LookAt { at_mm: at.into(), height_mm });
     }
     if ui.button(say!("compare-whole")).on_hover_text(say!("compare-whole-help")).clicked() {
-        asked = Some(Action::Fit);
+        asked(Action::Fit);
     }
-    asked
+    let save = ui.add_enabled(comparison.made().is_some(), egui::Button::new(say!("record-figure")));
+    if save.on_hover_text(say!("record-figure-help")).clicked() {
+        asked(Action::Record(record::Action::Figure));
+    }
 }
 
 /// What the colours of the difference say.

@@ -81,9 +81,12 @@ pub(super) fn pictures(
 pub(super) fn note(ui: &mut Ui, rect: Rect, text: &str) {
     /// What the letters of the axes take.
     const AXES: f32 = 88.0;
-    let size = vec2((rect.width() - AXES).max(AXES), LINE);
+    let is_small = rect.width() < NARROW;
+    // Lines below one another beside the axes, where one would be cut.
+    let size = vec2((rect.width() - AXES).max(AXES), if is_small { 3.0 * LINE } else { LINE });
     let rect = Rect::from_min_size(rect.min + vec2(MARGIN, MARGIN), size);
-    let words = egui::Label::new(RichText::new(text).small()).truncate().selectable(false);
+    let words = egui::Label::new(RichText::new(text).small()).selectable(false);
+    let words = if is_small { words.wrap() } else { words.truncate() };
     place(ui, rect, Layout::top_down(Align::LEFT), |ui| {
         let (at, galley, response) = words.layout_in_ui(ui);
         halo::galley(ui.painter(), at, galley, ui.visuals().text_color());

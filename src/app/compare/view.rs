@@ -52,9 +52,9 @@ struct Look {
 }
 
 impl Look {
-    /// Goes once, when all differences are known.
-    fn follow(&mut self, comparison: &Comparison, camera: &mut Camera) {
-        if let Some(largest) = comparison.largest_difference().filter(|_| !self.has_gone) {
+    /// Goes once, when all differences are known; not on a phone, whose small pictures would show a patch of wall.
+    fn follow(&mut self, comparison: &Comparison, camera: &mut Camera, is_narrow: bool) {
+        if let Some(largest) = comparison.largest_difference().filter(|_| !self.has_gone && !is_narrow) {
             self.has_gone = true;
             if let Some((at, height_mm)) = largest.patch().filter(|_| !self.was_moved) {
                 let before = *camera;
@@ -119,7 +119,7 @@ impl CompareView {
             ui.set_min_width(ui.available_width());
             let (title, figure) = words::heading(&all);
             heading(ui, &title);
-            if !figure.is_empty() {
+            if !figure.is_empty() && !is_narrow {
                 ui.label(RichText::new(figure).small().weak());
             }
             let is_held = bar(ui, comparison, settings, is_narrow, self.shows_first, &mut asked);
@@ -142,7 +142,7 @@ impl CompareView {
             asked.extend(self.grid(ui, comparison, &titles, views, settings, document, is_narrow));
         });
         let before = views.camera;
-        self.look.follow(comparison, &mut views.camera);
+        self.look.follow(comparison, &mut views.camera, is_narrow);
         if views.camera != before {
             ui.ctx().request_repaint();
         }
@@ -195,7 +195,8 @@ impl CompareView {
                 let scalars = difference.map(|found| &found.by_vertex).filter(|values| !values.is_empty());
                 let most = scalars.and(comparison.colours_up_to_mm());
                 let map = most.map(|most| ColourMap { range: (0.0, most) });
-                let note = if is_coloured && i == 0 {
+                // Its other names are "A" and "first".
+                let note = if i == 0 && count > 1 && first.is_none() {
                     say!("compare-reference")
                 } else {
                     difference.map_or(String::new(), words::difference)

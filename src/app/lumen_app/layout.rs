@@ -8,12 +8,15 @@ use crate::app::drawer::Content;
 use crate::app::mode::{Beside, Mode, Now, Place};
 use crate::app::state::State;
 use crate::app::views::{Clicked, Over, Subject};
-use crate::app::{bar, collapses, invitation, panel, row, theme, verdict};
+use crate::app::{assist, bar, collapses, invitation, panel, row, theme, verdict};
 use crate::pipeline::settings::Settings;
 use crate::say;
 
 /// From this width on there is room for a plot beside the views while someone presents, in points.
 const ROOM_TO_PRESENT: f32 = 800.0;
+
+/// From this height on, below all that stands beneath the views, a part of another page has room for the verdict, in points.
+const ROOM_FOR_VERDICT: f32 = 200.0;
 
 impl LumenApp {
     /// Shows the bars and the panel, and does what is asked for there.
@@ -68,6 +71,7 @@ impl LumenApp {
                 Place::Side(width, range) => {
                     let frame = |id| Panel::right(egui::Id::unique((id, "side"))).resizable(true).default_size(width);
                     self.show_panel(ui, *index, mode, |id| frame(id).size_range(range).frame(card), &mut asked);
+                    assist::name_edge(ui, egui::Id::unique((self.panels.all()[*index].id(), "side")));
                 }
                 Place::Foot(height) => {
                     self.show_panel(
@@ -85,10 +89,12 @@ impl LumenApp {
         let takes_panel = takes_panel.filter(|_| mode == Mode::Method);
         let part = if feet.is_empty() { 0.45 } else { 0.35 };
         self.side(ui, mode, takes_panel, part, &mut asked);
-        if mode == Mode::Method && takes_panel.is_none() && !is_embedded {
+        // A small part of another page has room for the views and what is dragged.
+        let has_verdict = !is_embedded || ui.available_height() >= ROOM_FOR_VERDICT;
+        if mode == Mode::Method && takes_panel.is_none() && has_verdict {
             let strip = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 4));
             Panel::top("verdict").frame(strip).exact_size(verdict::height(ui.ctx(), is_narrow) + 8.0).show(ui, |ui| {
-                verdict::show(ui, &self.state, self.views.options, is_narrow, &mut asked);
+                verdict::show(ui, &self.state, self.views.options, (is_narrow, is_embedded), &mut asked);
             });
         }
         if mode == Mode::Method {
@@ -129,6 +135,7 @@ impl LumenApp {
             let Place::Right(width, range) = place else { continue };
             let beside = |id| Panel::right(id).resizable(true).default_size(width).size_range(range).frame(margin);
             self.show_panel(ui, index, Mode::Method, beside, asked);
+            assist::name_edge(ui, self.panels.all()[index].id());
         }
         for (index, _) in self.placed(ui, Mode::Method, |place| matches!(place, Place::Below(..))) {
             // What is above has taken its part of the height.
@@ -139,6 +146,7 @@ impl LumenApp {
                 None => Panel::bottom(id).frame(margin).exact_size(height),
             };
             self.show_panel(ui, index, Mode::Method, below, asked);
+            assist::name_edge(ui, self.panels.all()[index].id());
         }
     }
 
@@ -154,8 +162,11 @@ impl LumenApp {
         if (self.presenter.is_on() || self.platform.is_embedded()) && instead.is_none() {
             return self.presented(ui, mode);
         }
+        // On a phone the pictures that are compared, or a lesson's card, need the room.
+        let needs_room = mode == Mode::Compare || self.panels.lesson.given().is_some();
         let content = match instead {
             Some(index) if !self.panels.all()[index].has_head() => Content::Plain,
+            None if is_drawn && self.is_narrow && needs_room => Content::Folded,
             instead => Content::Headed(instead),
         };
         self.drawer.take(content, ui.available_height(), part);
@@ -174,15 +185,17 @@ impl LumenApp {
             let is_low = is_drawn && self.drawer.peeks();
             match (content, instead) {
                 (Content::Headed(_), _) => self.headed(ui, mode, instead, is_low, asked),
+                (Content::Folded, _) if !is_low => self.headed(ui, mode, instead, false, asked),
                 (Content::Plain, Some(index)) if !is_low => {
                     let (panels, now) = self.with_now(mode);
                     if let Some(panel) = panels.all_mut().into_iter().nth(index) {
                         panel.show(ui, now, asked);
                     }
                 }
-                (Content::Plain, _) => {}
+                (Content::Folded | Content::Plain, _) => {}
             }
         });
+        assist::name_edge(ui, "panel");
     }
 
     /// Shows the method, or the panel that stands in its place, with its head above what scrolls; in a window that is too

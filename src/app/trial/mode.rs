@@ -199,9 +199,9 @@ impl Filling for TrialPanel {
         self.view.refuse();
     }
 
-    fn release(&mut self, _: &State, _: &mut Views) {
+    fn release(&mut self, _: &State, views: &mut Views) {
         if !(self.trial.is_open() || self.trial.tables.needs_views()) {
-            self.view.release();
+            self.view.leave(views);
         }
     }
 

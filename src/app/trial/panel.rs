@@ -3,7 +3,7 @@
 use egui::{Button, Key, Modifiers, Ui};
 
 use super::action::Action;
-use super::state::{AWAITS, Open, Stage, Trial};
+use super::state::{AWAITS, Open, Run, Stage, Trial};
 use super::{device, fluoroscope, outcome, readout, rumble, setup, sound};
 use crate::app::control::progress;
 use crate::app::document::Document;
@@ -147,7 +147,9 @@ fn state(ui: &mut Ui, shown: &Open) {
 fn buttons(ui: &mut Ui, trial: &Trial, shown: &Open, asked: &mut Vec<Action>) {
     let is_on = trial.is_on();
     let run = trial.run();
-    let (autopilot, is_paused) = run.map_or((false, false), |run| (run.autopilot, run.is_paused));
+    // Once it is over nothing steers.
+    let steers = |run: &Run| run.autopilot && run.summary.is_none();
+    let (autopilot, is_paused) = run.map_or((false, false), |run| (steers(run), run.is_paused));
     ui.horizontal_wrapped(|ui| {
         let mut button = |ui: &mut Ui, enabled, is_down, label: &str, help: &str, what: Action| {
             let response = ui.add_enabled(enabled, Button::new(label).selected(is_down)).on_hover_text(help.to_owned());

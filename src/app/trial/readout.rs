@@ -59,11 +59,12 @@ fn gauges(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     let (wall, end) = (frame.max_wall_force_n as f32, peaks.wall_scale());
     let Colour([r, g, b]) = viridis(wall / end);
     let words = [say!("trial-wall-force"), say!("trial-wall-force-help")];
-    let told = [force(frame.max_wall_force_n), force_end(end)];
+    let told = [force_in(is_small(end), frame.max_wall_force_n), force_end(end)];
     bar(ui, &words, &told, [wall, end], Color32::from_rgb(r, g, b));
     let words = [say!("trial-push-force"), say!("trial-push-force-help")];
     let end = peaks.push_scale();
-    bar(ui, &words, &[force(frame.push_n), force_end(end)], [frame.push_n as f32, end], accent);
+    let told = [force_in(is_small(end), frame.push_n), force_end(end)];
+    bar(ui, &words, &told, [frame.push_n as f32, end], accent);
     let length = trial.session().map_or(0.0, |session| session.ready.route.length_mm);
     let told = [format!("{} cm", decimal(frame.inserted_mm / 10.0, 1)), format!("{:.0} cm", length / 10.0)];
     let words = [say!("trial-insertion"), say!("trial-insertion-help")];
@@ -157,7 +158,12 @@ pub(super) fn is_small(end: f32) -> bool {
 
 /// In N, or in mN where there are few.
 fn force(newtons: f64) -> String {
-    if newtons.abs() < SMALL {
+    force_in(newtons.abs() < SMALL, newtons)
+}
+
+/// In mN or in N: beside a bar in the unit of its end.
+fn force_in(is_small: bool, newtons: f64) -> String {
+    if is_small {
         format!("{} mN", decimal((newtons * 1e5).round() / 100.0 + 0.0, 2))
     } else {
         format!("{} N", thousandths(newtons))

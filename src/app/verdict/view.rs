@@ -36,8 +36,15 @@ pub(in crate::app) fn height(ctx: &Context, is_narrow: bool) -> f32 {
     theme::row(ctx, LINE) + if is_narrow { LINE } else { 0.0 }
 }
 
-/// Shows the verdict on what is shown, and says what is asked for there.
-pub(in crate::app) fn show(ui: &mut Ui, state: &State, options: ViewOptions, is_narrow: bool, asked: &mut Vec<Action>) {
+/// Shows the verdict on what is shown, and says what is asked for there. A part of another page has no panels to open: it goes
+/// to the place alone.
+pub(in crate::app) fn show(
+    ui: &mut Ui,
+    state: &State,
+    options: ViewOptions,
+    (is_narrow, is_part): (bool, bool),
+    asked: &mut Vec<Action>,
+) {
     let Some(document) = &state.document else { return };
     let verdict = verdict(state, document);
     let first = verdict.findings.first().filter(|finding| finding.is_grave);
@@ -61,12 +68,18 @@ pub(in crate::app) fn show(ui: &mut Ui, state: &State, options: ViewOptions, is_
         ui.label(RichText::new(tell(&verdict.head)).strong());
         if let Some(coverage) = coverage.as_ref().filter(|_| !is_narrow) {
             let link = egui::Button::new(RichText::new(coverage).color(ui.visuals().hyperlink_color)).frame(false);
-            if ui.add(link).on_hover_text(say!("verdict-show-unmeasured-help")).clicked() {
+            if is_part {
+                ui.label(coverage);
+            } else if ui.add(link).on_hover_text(say!("verdict-show-unmeasured-help")).clicked() {
                 asked.push(SHOW_UNMEASURED);
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            buttons(ui, (&verdict, (document.revision.document, state.settings.clone())), first, is_narrow, asked);
+            if is_part {
+                first.into_iter().for_each(|finding| go(ui, finding, asked));
+            } else {
+                buttons(ui, (&verdict, (document.revision.document, state.settings.clone())), first, is_narrow, asked);
+            }
             if !is_narrow {
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| sentence(ui, &text));
             }

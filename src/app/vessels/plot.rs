@@ -4,7 +4,7 @@ use egui::{Align2, Color32, RichText, Role, Stroke, Ui, Visuals, WidgetInfo};
 use egui_plot::{AxisHints, HoverPosition, LineStyle, Plot, PlotPoint, PlotPoints, Text, VLine};
 
 use crate::app::plot_file::Drawn;
-use crate::app::still_plot::{curve, still, tick};
+use crate::app::still_plot::{curve, marks, still, tick};
 use crate::language::{decimal, tell};
 use crate::say;
 use crate::vessel::certificate::{BranchCalibre, OnSurface, StationStatus};
@@ -28,6 +28,9 @@ impl Strokes {
         }
     }
 }
+
+/// Marks of the radius are at least so far apart, in points.
+const APART: f32 = 28.0;
 
 /// What the pointer asks for in the plot.
 pub(super) enum Asked {
@@ -69,15 +72,17 @@ pub(super) fn show(
         .tick_label_font(font.clone());
     let y_axis = AxisHints::new_y()
         .label(RichText::new(say!("vessels-radius")).small())
-        .label_spacing(egui::Rangef::new(16.0, 32.0))
+        .label_spacing(egui::Rangef::new(8.0, 14.0))
         .formatter(tick)
         .tick_label_color(weak)
         .tick_label_font(font)
         .min_thickness(40.0);
+    let height = (bottom - ui.cursor().top()).max(100.0);
     let plot = still(Plot::new(("radius", branch.number)))
-        .height((bottom - ui.cursor().top()).max(100.0))
+        .height(height)
         .custom_x_axes(vec![x_axis])
         .custom_y_axes(vec![y_axis])
+        .y_grid_spacer(move |_| marks((low, high), (height / APART) as usize))
         .label_formatter(hover_text);
     let shown = ui.scope(|ui| {
         plot.show(ui, |plot| {

@@ -23,8 +23,9 @@ use crate::vessel::summary::{in_order, place, summary};
 const SEEN: f32 = 16.0;
 /// Height of the plot and its words on a phone, in points.
 const PHONE: f32 = 180.0;
-/// What the plot takes of the width, where it stands beside the table.
+/// What the plot takes of the width, where it stands beside the table, and at least where that is wide.
 const PLOT: f32 = 0.42;
+const LEAST_PLOT: f32 = 0.3;
 
 /// Shows the vessels, with the branch that is chosen; on a phone the plot stands below the table.
 pub(super) fn show(ui: &mut Ui, shown: Vessels, now: Now<'_>, asked: &mut Vec<Action>) {
@@ -58,9 +59,20 @@ pub(super) fn show(ui: &mut Ui, shown: Vessels, now: Now<'_>, asked: &mut Vec<Ac
         return;
     }
     let (room, height) = (ui.available_width(), ui.available_height());
+    // As wide as it was in the frame before.
+    let id = ui.scope_id().with("width of the table");
+    let wanted = ui.data(|data| data.get_temp(id)).unwrap_or(0.0_f32);
+    let width = wanted.clamp(room * (1.0 - PLOT), room * (1.0 - LEAST_PLOT));
     ui.horizontal_top(|ui| {
-        ui.allocate_ui(egui::vec2(room * (1.0 - PLOT), height), |ui| {
-            ScrollArea::both().auto_shrink(false).show(ui, |ui| table(ui, &rows, (branch, scrolls), state, asked));
+        ui.allocate_ui(egui::vec2(width, height), |ui| {
+            let area = ScrollArea::both().auto_shrink(false);
+            let shown = area
+                .show(ui, |ui| ui.scope(|ui| table(ui, &rows, (branch, scrolls), state, asked)).response.rect.width());
+            let wide = shown.inner + ui.spacing().scroll.allocated_width();
+            if (wide - wanted).abs() > 0.5 {
+                ui.data_mut(|data| data.insert_temp(id, wide));
+                ui.ctx().request_repaint();
+            }
         });
         let column = ScrollArea::vertical().id_salt("radius").max_height(height);
         ui.vertical(|ui| column.show(ui, |ui| radius(ui, branch, (found, reference_mm), height, asked)));

@@ -121,6 +121,10 @@ app-tab-wireframe-help = Die Ansicht als Drahtgitter
 app-panel-low = Höhe der Leiste: niedrig
 app-panel-half = Höhe der Leiste: halb
 app-panel-full = Höhe der Leiste: voll
+# The edge of a panel, which is drawn.
+app-panel-edge = Größe der Leiste
+# On the handle of a panel that is folded away.
+app-panel-folded = Regler
 app-panel-help = Nach oben oder unten ziehen; Tippen oder eine Pfeiltaste führt zur nächsten Höhe
 
 ## Over the sample, until a file is opened
@@ -139,6 +143,12 @@ app-invite-close-help = Das Beispiel bleibt offen
 
 app-keys = Tasten und Gesten
 app-close = Schließen
+app-touch-one = Ein Finger
+app-touch-two = Zwei Finger
+app-touch-two-does = Verschieben, durch Spreizen vergrößern
+app-touch-double = Doppeltippen
+# Above the keys, where what stands before is for fingers.
+app-keys-keyboard = Mit Maus und Tastatur
 app-key-drag = Ziehen
 app-key-drag-does = Drehen
 app-key-move = Umschalt oder rechte Taste + Ziehen, zwei Finger

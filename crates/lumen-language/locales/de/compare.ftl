@@ -32,6 +32,9 @@ compare-most = Größter Unterschied
 compare-most-help = Geht dorthin, wo eine Oberfläche am weitesten von A entfernt ist; Ausschnitt einige Gefäßdurchmesser hoch
 compare-whole = Ganzes Gefäß
 compare-whole-help = Die ganze Oberfläche (F)
+# A menu with what a phone has no room for.
+compare-more = Mehr
+compare-more-help = Wie die Bilder stehen, der Unterschied, ein Bild für eine Datei
 compare-done = Fertig
 compare-done-help = Zurück zu den zwei Ansichten (C)
 

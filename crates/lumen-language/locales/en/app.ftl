@@ -131,6 +131,10 @@ app-tab-wireframe-help = The wireframe view
 app-panel-low = Panel height: low
 app-panel-half = Panel height: half
 app-panel-full = Panel height: full
+# The edge of a panel, which is drawn.
+app-panel-edge = Panel size
+# On the handle of a panel that is folded away.
+app-panel-folded = Sliders
 app-panel-help = Drag it up or down; a tap or an arrow key goes to the next height
 
 ## Over the sample, until a file is opened
@@ -149,6 +153,12 @@ app-invite-close-help = The sample stays open
 
 app-keys = Keys and gestures
 app-close = Close
+app-touch-one = One finger
+app-touch-two = Two fingers
+app-touch-two-does = Move, and zoom by pinching
+app-touch-double = Double tap
+# Above the keys, where what stands before is for fingers.
+app-keys-keyboard = With mouse and keyboard
 app-key-drag = Drag
 app-key-drag-does = Turn
 app-key-move = Shift or right button + drag, two fingers

@@ -35,6 +35,9 @@ compare-most = Where they differ most
 compare-most-help = Goes to where a surface is farthest from A, a few vessel diameters high
 compare-whole = Whole vessel
 compare-whole-help = All of the surface (F)
+# A menu with what a phone has no room for.
+compare-more = More
+compare-more-help = How the pictures stand, the difference, a picture for a file
 compare-done = Done
 compare-done-help = Back to the two views (C)
 

@@ -121,6 +121,10 @@ app-tab-wireframe-help = La vue en fil de fer
 app-panel-low = Hauteur du panneau : basse
 app-panel-half = Hauteur du panneau : moyenne
 app-panel-full = Hauteur du panneau : pleine
+# The edge of a panel, which is drawn.
+app-panel-edge = Taille du panneau
+# On the handle of a panel that is folded away.
+app-panel-folded = Curseurs
 app-panel-help = Le faire glisser vers le haut ou le bas ; un appui ou une touche fléchée passe à la hauteur suivante
 
 ## Over the sample, until a file is opened
@@ -139,6 +143,12 @@ app-invite-close-help = L'exemple reste ouvert
 
 app-keys = Touches et gestes
 app-close = Fermer
+app-touch-one = Un doigt
+app-touch-two = Deux doigts
+app-touch-two-does = Déplacer, pincer pour zoomer
+app-touch-double = Double appui
+# Above the keys, where what stands before is for fingers.
+app-keys-keyboard = Avec souris et clavier
 app-key-drag = Glisser
 app-key-drag-does = Tourner
 app-key-move = Maj ou bouton droit + glisser, deux doigts

@@ -32,6 +32,9 @@ compare-most = Plus grande différence
 compare-most-help = Va là où une surface est le plus loin de A, sur quelques diamètres de vaisseau
 compare-whole = Vaisseau entier
 compare-whole-help = Toute la surface (F)
+# A menu with what a phone has no room for.
+compare-more = Plus
+compare-more-help = La disposition des images, la différence, une image pour un fichier
 compare-done = Terminé
 compare-done-help = Retour aux deux vues (C)
 

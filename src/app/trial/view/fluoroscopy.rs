@@ -8,9 +8,8 @@ use super::painting::{empty, image, radius};
 use crate::app::assist::name;
 use crate::app::graphics_error::surface_error;
 use crate::app::halo;
-use crate::app::overlay::{self, NOT_CLINICAL};
+use crate::app::overlay;
 use crate::app::places::pixels;
-use crate::app::theme;
 use crate::app::trial::carm::{self, CArm};
 use crate::app::trial::marks::WRITTEN_OVER;
 use crate::app::trial::plate::plate;
@@ -86,9 +85,6 @@ impl Fluoroscopy {
             && let Some(at) = carm::place(&held.camera, rect, fork.into())
         {
             overlay::ring_at(ui, rect, at, &say!("trial-missed-fork-ring"), ui.visuals().error_fg_color);
-        }
-        if theme::is_narrow(ui.ctx()) {
-            plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), false);
         }
     }
 

@@ -54,6 +54,10 @@ pub(in crate::app) struct TrialView {
     /// The picture of the wire that they have.
     picture: Option<(u64, u64)>,
     fluoroscopy: Fluoroscopy,
+    /// Whether the camera has the whole vessel in view, as a trial begins.
+    has_fitted: bool,
+    /// From where the user looked before, where that was another place.
+    looked: Option<Camera>,
 }
 
 impl TrialView {
@@ -71,7 +75,19 @@ impl TrialView {
             felt: 0,
             picture: None,
             fluoroscopy: Fluoroscopy::default(),
+            has_fitted: false,
+            looked: None,
         }
+    }
+
+    /// Lets go of the camera, which looks from where it did before the trial, unless the user has moved it meanwhile; and of
+    /// the memory of the device.
+    pub(in crate::app::trial) fn leave(&mut self, views: &mut Views) {
+        self.has_fitted = false;
+        if let Some(looked) = self.looked.take().filter(|_| views.is_fitted()) {
+            views.camera = looked;
+        }
+        self.release();
     }
 
     /// Gives back the memory of the device.
@@ -147,7 +163,13 @@ impl TrialView {
         let area = ui.available_rect_before_wrap();
         let is_large = trial.is_large();
         let [first, second, third] = places(area, is_large, self.shows_tip, is_narrow);
+        let looked = (!views.is_fitted()).then_some(views.camera);
         views.take_shape(first, 1, document, keep);
+        if !std::mem::replace(&mut self.has_fitted, true) {
+            // A wire that goes in elsewhere than where the user has looked last would not be seen.
+            self.looked = looked;
+            views.fit(document, keep);
+        }
         if let Some(at) = trial.open.as_mut().and_then(|open| open.flight.take()) {
             views.fly(at, AROUND);
             ui.ctx().request_repaint();

@@ -6,7 +6,6 @@ use glam::{Mat3, Quat};
 use super::TrialView;
 use super::painting::{empty, image, radius};
 use crate::app::assist::name;
-use crate::app::overlay::NOT_CLINICAL;
 use crate::app::places::pixels;
 use crate::app::theme;
 use crate::app::trial::plate::plate;
@@ -37,9 +36,6 @@ impl TrialView {
         }
         let inner = rect.shrink(8.0);
         plate(ui, inner.left_top(), Align2::LEFT_TOP, &say!("trial-tip-title"), true);
-        if theme::is_narrow(ui.ctx()) {
-            plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), false);
-        }
         if rect.height() > 200.0 {
             plate(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, &trial.title, false);
         }

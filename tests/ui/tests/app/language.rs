@@ -42,6 +42,8 @@ fn a_language_that_is_chosen_is_spoken_at_once_and_english_again() {
     assert!(!speaks_german(&harness));
     choose(&mut harness, ENGLISH, "Deutsch");
     assert!(speaks_german(&harness));
+    assert_eq!(harness.query_all_by_role_and_label(Role::Splitter, "Größe der Leiste").count(), 1);
+    assert_eq!(harness.query_all_by_role(Role::Splitter).count(), 1, "and none by egui's own name");
     // Messages that nobody has asked for.
     let text = "app-open = Ouvrir...".to_owned();
     memory.borrow_mut().events.push_back(PlatformEvent::Texts { language: Language::French, texts: Ok(text) });

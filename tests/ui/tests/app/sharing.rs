@@ -202,6 +202,7 @@ fn a_part_of_another_page_has_the_sliders_and_the_view_of_its_link_and_a_way_to_
         assert!(harness.query_by_role_and_label(Role::Button, button).is_none(), "{button}");
     }
     assert!(says(&harness, "Not for clinical decisions") && !says(&harness, "Drop a vessel here"));
+    assert!(harness.query_by_label_contains("Sample: ").is_some(), "the verdict is told");
     let camera = harness.state().camera();
     assert_eq!((camera.target.to_array(), camera.distance), (eye.target_mm, eye.distance_mm));
     assert!(camera.rotation.to_array().iter().zip(rotation).all(|(a, b)| (a - b).abs() < 1e-3));

@@ -146,6 +146,50 @@ fn one_view_is_large_and_a_tab_or_a_swipe_above_it_goes_to_the_other() {
     assert!(!is_shaded(&harness) && camera.rotation != harness.state().camera().rotation, "a swipe in the view turns");
 }
 
+#[test]
+fn help_is_in_the_window_and_begins_with_fingers() {
+    for size in [PHONE, [768.0, 1024.0]] {
+        let (mut harness, _) = in_hand(size, 0.1, false);
+        settle(&mut harness);
+        harness.key_press(Key::F1);
+        harness.run_steps(3);
+        let place = |label: &str| harness.query_all_by_label(label).next().unwrap_or_else(|| panic!("{label}")).rect();
+        assert!(place("One finger").top() < place("With mouse and keyboard").top());
+        assert!(place("Close").bottom() < size[1]);
+        for line in [
+            "Shift or right button + drag, two fingers",
+            "Next control; arrows, Page up, Page down, Home and End move a slider",
+        ] {
+            let rect = place(line);
+            assert!(rect.left() >= 16.0 && rect.right() <= size[0] - 16.0, "{line}: {rect}");
+        }
+    }
+}
+
+#[test]
+fn the_panel_gives_its_room_to_a_lesson_and_to_a_comparison_and_a_tap_brings_it_back() {
+    let (mut harness, memory) = phone();
+    settle(&mut harness);
+    let camera = *harness.state().camera();
+    harness.key_press(Key::C);
+    harness.run_steps(3);
+    settle(&mut harness);
+    let has_sliders = |harness: &App| harness.query_by_role_and_label(Role::Slider, "Pass band").is_some();
+    let cells: Vec<_> = harness.query_all_by_role(Role::RadioButton).map(|cell| cell.rect()).collect();
+    assert!(!has_sliders(&harness) && cells.len() >= 2 && cells[1].bottom() < PHONE[1] - 100.0, "{cells:?}");
+    let now = *harness.state().camera();
+    assert!(now.target.distance(camera.target) < 0.1, "the whole vessel is seen, and not a patch of its wall");
+    click(&mut harness, "Panel height: low");
+    harness.run_steps(3);
+    assert!(has_sliders(&harness), "what is compared next is set here");
+    click(&mut harness, "Done");
+    tell(&mut harness, &memory, PlatformEvent::Linked { fragment: "#lesson=windows&step=2".to_owned() });
+    harness.run_steps(4);
+    // Folded again: it is another place.
+    let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
+    assert!(view.height() >= 160.0, "{view}");
+}
+
 /// Taps the handle until the panel stands at its highest.
 fn draw_up(harness: &mut App) {
     for _ in 0..2 {

@@ -151,3 +151,22 @@ fn a_level_that_is_no_longer_wanted_is_not_awaited() {
     settle(&mut harness);
     assert!(asked(&memory).is_empty() && says(&harness, "0.0 cm"), "the trial before stands, at its entry");
 }
+
+#[test]
+fn a_trial_begins_with_the_whole_vessel_in_view_and_goes_back_to_where_one_has_looked() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let camera = |harness: &App| *harness.state().camera();
+    let whole = camera(&harness);
+    let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
+    harness.hover_at(view.center());
+    harness.event(egui::Event::Zoom(2.0));
+    harness.run_steps(12);
+    let near = camera(&harness);
+    assert!(near.distance < 0.7 * whole.distance, "{} of {}", near.distance, whole.distance);
+    put_on(&mut harness, &memory);
+    assert!((0.6..2.0).contains(&(camera(&harness).distance / whole.distance)));
+    press(&mut harness, "Prepare");
+    harness.run_steps(3);
+    assert_eq!(camera(&harness), near);
+}
