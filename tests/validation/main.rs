@@ -9,6 +9,8 @@ mod bend;
 mod buckling;
 mod dynamics;
 mod elastica;
+mod facets;
+mod feed;
 mod friction;
 mod helix;
 mod invariance;

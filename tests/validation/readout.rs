@@ -137,6 +137,49 @@ fn a_weight_along_the_wire_is_what_it_pushes_with() {
 }
 
 #[test]
+fn a_wire_that_is_bent_at_the_mouth_comes_out_by_itself() {
+    let mut found = Benchmark::new("readout-sleeve");
+    let (ei, load) = (5.0, 2e-3);
+    let mut simulation = Simulation::new(&plain(ei), [0.0; 2], &entry(DVec3::ZERO), 0.0, None).unwrap();
+    for to in [15.0, 20.0, 25.0, 30.0, 35.0] {
+        at_tip(&mut simulation, DVec3::Y * load);
+        feed(&mut simulation, to);
+        told(&mut simulation, Input::default(), 1500);
+        let [push, _] = told(&mut simulation, Input::default(), 300);
+        // The load does not act along the way in: what holds the wire back is the moment at the mouth alone.
+        let moment = load * simulation.tip().x;
+        let exact = -moment * moment / (2.0 * ei);
+        found.compare(&format!("push with {to} mm outside (N)"), exact, push, Part(0.02), to as usize);
+        found.point("ours", to, push);
+        found.curve("analytic", to, exact);
+    }
+    found.finish();
+}
+
+#[test]
+fn what_the_hand_does_is_what_the_wire_holds() {
+    let mut found = Benchmark::new("readout-work");
+    // The guide ends where the bend begins.
+    let path = |step: f64| curve(&[(4.0, f64::INFINITY), (0.5 * PI * BEND, BEND), (40.0, f64::INFINITY)], step);
+    for ei in [2.0, 40.0] {
+        let wall = Arc::new(Wall::open(Arc::new(tube(&path(0.23), |_| TUBE, 48))));
+        let mut simulation = Simulation::new(&plain(ei), [0.0; 2], &entry(DVec3::X * 3.0), 0.0, Some(wall)).unwrap();
+        feed(&mut simulation, 15.0);
+        told(&mut simulation, Input::default(), 300);
+        let (before, mut work) = (simulation.body().rod.energy(), 0.0);
+        while simulation.inserted() < 55.0 {
+            let report = simulation.step(Input { feed: 5.0, roll: 0.0 });
+            work += report.push_n * report.fed_mm;
+            found.point(&format!("EI = {ei} N mm²"), simulation.inserted(), report.push_n / ei);
+        }
+        told(&mut simulation, Input::default(), 300);
+        let held = simulation.body().rod.energy() - before;
+        found.compare(&format!("work from 15 to 55 mm at EI = {ei} N mm² (N mm)"), held, work, Part(0.03), 55);
+    }
+    found.finish();
+}
+
+#[test]
 fn the_push_at_which_a_wire_snakes_is_told() {
     let mut found = Benchmark::new("readout-snaking");
     let (length, load, ei) = (150.0, 0.001, 0.1);

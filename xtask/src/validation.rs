@@ -13,7 +13,7 @@ use crate::document;
 use crate::step::{cargo, root, run, step, target};
 
 /// A benchmark, and what its plot shows: name, title, axes, whether both are logarithmic.
-const BENCHMARKS: [(&str, &str, [&str; 2], bool); 38] = [
+const BENCHMARKS: [(&str, &str, [&str; 2], bool); 44] = [
     ("cantilever", "Cantilever under an end load", ["P L² / EI", "tip over L"], false),
     ("cantilever-order", "Cantilever: error of the tip", ["elements", "error over L"], true),
     ("ring", "Ring closed by an end moment", ["x / L", "y / L"], false),
@@ -34,6 +34,15 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 38] = [
     ("whip-order", "Whip: error of the number from which on it snaps", ["elements", "error"], true),
     ("capstan", "Pull through half a turn", ["coefficient of friction", "pull over that at the tip"], false),
     ("push", "Push through half a turn", ["coefficient of friction", "push over that at the tip"], false),
+    (
+        "facets",
+        "Push along a floor that is cut finer",
+        ["length of the triangles, mm", "push of each mm over μ w"],
+        true,
+    ),
+    ("sides", "Friction in a bend of more sides", ["sides of the tube", "work of friction over μ N"], true),
+    ("stiff", "A stiff shaft in a bend", ["EI, N mm²", "push over EI, 1/mm²"], true),
+    ("feed", "A wire that is fed faster", ["feed, mm/s", "tip from that at 20 mm/s, mm"], false),
     ("roll", "Torque that rolls a wire in a bend", ["sides of the tube", "torque, N mm"], false),
     ("stick-slip", "A piece of wire pushed to and fro", ["way, mm", "push over what presses it down"], false),
     (
@@ -66,6 +75,8 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 38] = [
         ["turn at the guide, degrees", "torque, N mm"],
         false,
     ),
+    ("readout-sleeve", "Push of a wire that is bent at the mouth", ["length outside the guide, mm", "push, N"], false),
+    ("readout-work", "Work of the hand", ["length outside the guide, mm", "push over EI, 1/mm²"], false),
     ("readout-mouth", "Deflection as it is fed", ["length outside the guide, mm", "deflection, mm"], false),
     ("turned", "A loaded rod that is turned", ["", ""], false),
     ("vessel", "A vessel in another order, and turned", ["", ""], false),

@@ -305,7 +305,7 @@ impl HapticDevice {
             // Along half of the axis's way.
             let slope = resistance.slope[which] * mapping.half_way();
             let own = if has_coupling && place.is_some() { slope.min(1.0) } else { 0.0 };
-            let soft = self.softness[which].part(now_ms, slope, own, resists == 0.0);
+            let soft = self.softness[which].part(now_ms, slope, own, resists);
             let force = soft * if mapping.is_inverted { resists } else { -resists };
             // A spring that pulls with that force where the axis is now, and goes on at the device's own rate. What nothing
             // resists has no spring: its centre comes late, and would drag.

@@ -27,7 +27,8 @@
 //!
 //! - *Fixed*: a node or a frame that stays where it is put. Its *reaction* is what keeps it there.
 //! - *Guide*: the rigid sheath or catheter that the wire comes out of; its end is the *mouth*, and what is in it is fixed.
-//! - *Push* and *torque*: the reaction of the guide along the way in and about it. Their sign is said at
+//! - *Push* and *torque*: what the hand does to the wire along the way in and about it: the reaction of the guide, less what
+//!   its mouth pushes a bent wire out with by itself. Their sign is said at
 //!   [`StepReport::push_n`](report::StepReport::push_n).
 //! - *Held*: a step that found no way on and left the rod where it was, [`StepKind::Held`](report::StepKind::Held); nothing
 //!   else is.

@@ -8,7 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Of which kind a step was.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum StepKind {
     /// Its forces are in balance.
     #[default]
@@ -39,12 +39,30 @@ pub struct StepReport {
     /// The residual: by how much Newton's second law is missed for the wire outside the guide as a whole, in N: what
     /// artificial damping took, and what was not settled.
     pub residual_n: f64,
-    /// The push: what the guide does to the wire along the way in, in N. Positive where it pushes the wire in, which pushes
-    /// back; negative where it pulls. This is the sign of every push in frames, logs and summaries.
+    /// The push: what the hand does to the wire along the way in, in N, which is the work of each mm that is fed. Positive
+    /// where it pushes the wire in, which pushes back; negative where it pulls. This is the sign of every push in frames,
+    /// logs and summaries.
     pub push_n: f64,
     /// The torque: the moment of the guide on the wire about the way in, in N mm. Positive, right-handed, where the wire
     /// turns back from a positive roll. This is the sign of every torque.
     pub torque_n_mm: f64,
+}
+
+impl StepReport {
+    /// Of two parts of a step: how far they went together, the forces at the end, and the worse of the kinds. A step in which
+    /// the guide waits for one part alone is braked.
+    #[must_use]
+    pub(super) fn followed_by(&self, next: &Self) -> Self {
+        let (better, worse) = (self.kind.min(next.kind), self.kind.max(next.kind));
+        Self {
+            kind: if worse < StepKind::Waited { worse } else { better.max(StepKind::Braked) },
+            wanted_mm: self.wanted_mm + next.wanted_mm,
+            fed_mm: self.fed_mm + next.fed_mm,
+            wanted_rad: self.wanted_rad + next.wanted_rad,
+            rolled_rad: self.rolled_rad + next.rolled_rad,
+            ..*next
+        }
+    }
 }
 
 /// Numbers of steps, by kind.

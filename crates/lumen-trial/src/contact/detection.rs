@@ -1,14 +1,16 @@
 //! Where a rod is near the wall, kept from step to step: the manifold of its contacts.
 //!
 //! A node touches the wall where it is nearest, and where it was nearest before as long as that is another facet at hand:
-//! in a corner it rests on both, and slides from the one to the other without a jolt. So does the inside of an edge
-//! where that comes nearer than both of its ends: at a ridge or on the inside of a bend. The gap is the distance from
-//! the flat triangles less the radius.
+//! in a corner it rests on both, and slides from the one to the other without a jolt. A contact belongs to the wall and
+//! not to a triangle: multiplier, slip and limit go on with it to the next triangle, so that neither friction nor the way
+//! in which the wall presses depends on how the wall is cut. The inside of an edge touches it where that comes nearer than
+//! both of its ends: at a ridge or on the inside of a bend. The gap is the distance from the flat triangles less the
+//! radius.
 
 use glam::DVec3;
 
 use super::law::{Contact, PENALTY};
-use crate::rod::Rod;
+use crate::rod::{Rod, Section};
 use crate::wall::Wall;
 use lumen_mesh::{PointProjection, SegmentProjection};
 
@@ -25,8 +27,14 @@ const CORNER: f64 = 0.02;
 /// The part of the radius by which the inside of an edge must be nearer than its ends to be a contact of its own.
 const DEEPER: f64 = 0.01;
 
-/// Cosine of the turn below which two feet are on one facet, to a wire.
-const SAME: f64 = 0.9994;
+/// Cosine of the turn below which two triangles are one facet: a degree.
+const SAME: f64 = 0.99985;
+/// The most that the curvature of the wall is, over 1 / the distance of the wire's middle from it.
+const ROUNDEST: f64 = 0.5;
+/// Triangles that a contact goes on over in a step.
+const TRIANGLES: usize = 8;
+/// Cosine of the way from the wall and a triangle's normal above which a node is above the triangle.
+const ABOVE: f64 = 1.0 - 1e-9;
 /// Facets that a node can touch at once.
 const FACETS: usize = 3;
 /// Ridges that an edge can touch at once.
@@ -94,7 +102,9 @@ pub(super) struct Manifold {
 
 impl Contact {
     /// Is with this foot from now on, with the force that it had.
-    fn meet(&mut self, wall: &Wall, p: DVec3, along: f64, projection: &PointProjection, radius: f64) {
+    fn meet(&mut self, rod: &Rod, node: usize, along: f64, wall: &Wall, projection: &PointProjection, radius: f64) {
+        let a = rod.positions[node];
+        let p = if along > 0.0 { a.lerp(rod.positions[node + 1], along) } else { a };
         if !self.is_near || (along - self.along).abs() > 0.3 {
             *self = Self::NONE;
         }
@@ -107,6 +117,13 @@ impl Contact {
         self.normal = (p - projection.point).normalize_or(self.smooth);
         self.gap = projection.distance - radius;
         self.at = p;
+        let Section { length, ei, .. } = rod.sections[node];
+        self.penalty = PENALTY.max(ei / (length * length * length));
+        self.across = self.normal.cross(rod.tangent(node)).normalize_or_zero();
+        // As the middle of the wire feels it, which is nearer to the middle of the lumen.
+        let curvature =
+            wall.curvature(projection.triangle, self.across).clamp(0.0, ROUNDEST / projection.distance.max(radius));
+        self.curvature = curvature / (1.0 - curvature * projection.distance);
     }
 }
 
@@ -123,7 +140,7 @@ impl Manifold {
         let mut deepest = f64::NEG_INFINITY;
         // An edge right after its ends, whose triangles are at hand then.
         for i in 0..count {
-            let mut distance = self.detect_at_node(rod.positions[i], i, wall, radius);
+            let mut distance = self.detect_at_node(rod, i, wall, radius);
             if i > 0 {
                 distance = distance.min(self.detect_at_edge(rod, i - 1, wall, radius));
             }
@@ -145,7 +162,8 @@ impl Manifold {
     }
 
     /// Measures the gaps of a node. Returns a distance from the wall that it has at least, in mm.
-    fn detect_at_node(&mut self, p: DVec3, i: usize, wall: &Wall, radius: f64) -> f64 {
+    fn detect_at_node(&mut self, rod: &Rod, i: usize, wall: &Wall, radius: f64) -> f64 {
+        let p = rod.positions[i];
         let (known, contacts) = (&mut self.clearances[i], &mut self.nodes[i]);
         if stands(known.distance - radius, known.at_least(p) - radius, REACH) {
             return known.at_least(p);
@@ -158,20 +176,21 @@ impl Manifold {
         }
         let away = (p - projection.point).normalize_or_zero();
         let mut same = None;
-        for (k, contact) in contacts.iter_mut().enumerate().filter(|(_, contact)| contact.is_near) {
-            let Some(own) = wall.index().project_point_in(contact.slot, p).filter(|own| own.distance < radius + REACH)
-            else {
-                *contact = Contact::NONE;
-                continue;
-            };
-            let is_same = own.triangle == projection.triangle || (p - own.point).normalize_or_zero().dot(away) > SAME;
-            if is_same && same.is_none() {
+        for k in 0..FACETS {
+            let mut contact = std::mem::replace(&mut contacts[k], Contact::NONE);
+            let followed = if contact.is_near { follow(wall, p, &contact, away, &projection) } else { None };
+            let Some((own, is_same)) = followed else { continue };
+            let is_with = |&j: &usize| contacts[j].is_near && contacts[j].slot == own.slot && same != Some(j);
+            if let Some(before) = if is_same { same } else { (0..k).find(is_with) } {
+                // Two that have come together are one.
+                contacts[before].join(&contact);
+            } else if is_same {
                 same = Some(k);
-            } else if is_same || own.distance >= radius + CORNER {
-                // Two that have come together are one, and what is not nearest is let go of sooner.
-                *contact = Contact::NONE;
-            } else {
-                contact.meet(wall, p, 0.0, &own, radius);
+                contacts[k] = contact;
+            } else if own.distance < radius + CORNER {
+                // What is not nearest is let go of sooner.
+                contact.meet(rod, i, 0.0, wall, &own, radius);
+                contacts[k] = contact;
             }
         }
         // A new facet takes the place of what matters least.
@@ -180,7 +199,7 @@ impl Manifold {
             if same.is_none() {
                 contacts[k] = Contact::NONE;
             }
-            contacts[k].meet(wall, p, 0.0, &projection, radius);
+            contacts[k].meet(rod, i, 0.0, wall, &projection, radius);
         }
         projection.distance
     }
@@ -201,7 +220,7 @@ impl Manifold {
         for contact in contacts.iter_mut().filter(|contact| contact.is_near) {
             match wall.index().project_segment_in(contact.slot, a, b, radius + EDGE_REACH) {
                 Some(own) => {
-                    contact.meet(wall, a.lerp(b, own.along), own.along, &own.projection, radius);
+                    contact.meet(rod, i, own.along, wall, &own.projection, radius);
                     least = least.min(own.projection.distance);
                 }
                 None => *contact = Contact::NONE,
@@ -226,7 +245,7 @@ impl Manifold {
             if same.is_none() {
                 contacts[k] = Contact::NONE;
             }
-            contacts[k].meet(wall, a.lerp(b, along), along, &projection, radius);
+            contacts[k].meet(rod, i, along, wall, &projection, radius);
         }
         least.min(projection.distance)
     }
@@ -276,6 +295,48 @@ impl Manifold {
     }
 }
 
+/// Where a contact of a node at `p` is now, and whether that is where the wall is nearest, which the node is `away` from.
+///
+/// As long as the node is above its triangle, it is with that. Once the node has left that, over a side from which the
+/// wall goes straight on or falls away, it goes on to the next one; over a valley it stays with its plane, which lies
+/// behind the wall there: a node in the valley is between both.
+fn follow(
+    wall: &Wall,
+    p: DVec3,
+    contact: &Contact,
+    away: DVec3,
+    nearest: &PointProjection,
+) -> Option<(PointProjection, bool)> {
+    let mut own = wall.index().project_point_in(contact.slot, p)?;
+    for _ in 0..TRIANGLES {
+        let way = (p - own.point).normalize_or_zero();
+        if own.triangle == nearest.triangle || way.dot(away) > SAME {
+            return Some((own, true));
+        }
+        let normal = wall.normal(own.triangle).map_or(way, |normal| normal * normal.dot(way).signum());
+        if normal.dot(way) > ABOVE {
+            break;
+        }
+        if normal.dot(away) > SAME {
+            return Some((own, true));
+        }
+        // Half-way down to its side the wall is nearer than its plane behind a valley, and farther behind a ridge.
+        let middle = own.point.midpoint(p);
+        let height = normal.dot(middle - own.point);
+        let next = wall.index().project_point(middle, f64::INFINITY, own.slot)?;
+        if next.slot == own.slot {
+            break;
+        }
+        let is_on = wall.normal(next.triangle).is_some_and(|next| next.dot(normal).abs() > SAME);
+        if next.distance < height && !is_on {
+            let distance = 2.0 * height;
+            return Some((PointProjection { point: p - normal * distance, distance, ..own }, false));
+        }
+        own = wall.index().project_point_in(next.slot, p)?;
+    }
+    Some((own, false))
+}
+
 /// Whether a gap of `gap` mm need not be measured anew while at least `left` mm of it are left: what is looked after from
 /// `reach` on has been found.
 fn stands(gap: f64, left: f64, reach: f64) -> bool {
@@ -301,7 +362,7 @@ fn between(a: f64, b: f64, length: f64) -> f64 {
 
 /// How much a contact matters, in N: by what it presses with and how near it is; none at all the least.
 fn rank(contact: &Contact) -> f64 {
-    if contact.is_near { contact.multiplier - PENALTY * contact.gap } else { f64::NEG_INFINITY }
+    if contact.is_near { contact.found - contact.penalty * contact.gap } else { f64::NEG_INFINITY }
 }
 
 #[cfg(test)]
@@ -309,7 +370,6 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::rod::Section;
     use lumen_mesh::{TriMesh, Vec3};
 
     /// A room of 4 x 4 x 4 mm around the origin, to be touched from inside.
@@ -357,6 +417,34 @@ mod tests {
         contacts.detect(&rod_from(DVec3::new(0.0, 1.8 - opened, 0.0)), 1, &wall, 0.2);
         assert_eq!(forces(&contacts.nodes[0]), [0.25]);
         assert!((contacts.nodes[0][0].gap - opened).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_contact_goes_on_to_the_next_triangle_with_its_force() {
+        let wall = room();
+        let mut contacts = Manifold::default();
+        // Over the diagonal of the side +y, in a step of 0.1 mm.
+        for (x, triangle) in [(0.05, 7), (-0.05, 6)] {
+            contacts.detect(&rod_from(DVec3::new(x, 1.8, 0.0)), 1, &wall, 0.2);
+            if x > 0.0 {
+                contacts.each(|_, contact| contact.multiplier = 0.25);
+            }
+            assert_eq!(forces(&contacts.nodes[0]), [0.25]);
+            let contact = contacts.nodes[0].iter().find(|contact| contact.is_near).unwrap();
+            assert_eq!((contact.triangle, contact.normal.round()), (triangle, DVec3::NEG_Y));
+        }
+    }
+
+    #[test]
+    fn behind_a_valley_the_plane_of_the_triangle_stays() {
+        let wall = room();
+        let mut contacts = Manifold::default();
+        // From the side +y, in a corner of it with +z, to where that is nearer.
+        contacts.detect(&rod_from(DVec3::new(0.5, 1.81, 1.79)), 1, &wall, 0.2);
+        contacts.each(|_, contact| contact.multiplier = 0.25);
+        contacts.detect(&rod_from(DVec3::new(0.4, 1.79, 1.81)), 1, &wall, 0.2);
+        let found: Vec<_> = contacts.near().map(|(_, contact)| (contact.normal.round(), contact.multiplier)).collect();
+        assert_eq!(found, [(DVec3::NEG_Y, 0.25), (DVec3::NEG_Z, 0.0)]);
     }
 
     #[test]

@@ -11,6 +11,10 @@
 //! however hard it is pressed. The force acts the way the gap grows: a force along an interpolated normal would do work
 //! as the wire slides over a facet, and never settle.
 //!
+//! The wall of a lumen comes round the wire, with a curvature k where the wire's middle goes. To a wire that moves across
+//! itself by u from where the gap was measured, that is an energy of `N k u^2 / 2`: within a step a plane would give a
+//! pushed wire no hold to the side, and it would be on another plane after each.
+//!
 //! Friction is a spring across the normal that begins where the contact last stuck and gives no more than Coulomb's
 //! limit, `mu N`: the slip since then is brought back to what that limit can hold (return mapping, as in plasticity: Simo
 //! and Laursen 1992). The roll of the wire's surface is part of the slip, so that turning and pushing share one cone.
@@ -19,9 +23,10 @@ use glam::DVec3;
 
 use crate::rod::Rod;
 
-/// The penalty of a contact in N/mm: how much its force changes before the next step corrects the gap. A wire gives way
-/// across itself by 0.01 to 10 N/mm; the farther above that this is, the more search directions a correction takes, and
-/// what is left unsettled is felt as force (`tests/validation/balance.rs`).
+/// The least penalty of a contact in N/mm: how much its force changes before the next step corrects the gap. An element
+/// of a wire gives way across itself by about `EI / length^3`, and that is the penalty where it is more, so that stiff
+/// wires settle as floppy ones do. The farther above what the wire gives way by it is, the more search directions a
+/// correction takes, and what is left unsettled is felt as force (`tests/validation/balance.rs`).
 pub(super) const PENALTY: f64 = 4.0;
 /// The penalty of slip where a contact sticks, in N/mm.
 pub(super) const SLIP_PENALTY: f64 = 4.0;
@@ -45,8 +50,15 @@ pub struct Contact {
     pub(super) smooth: DVec3,
     /// Distance from the flat triangles less the rod's radius, in mm, when it was measured.
     pub(super) gap: f64,
+    /// The penalty in N/mm.
+    pub(super) penalty: f64,
     /// Where the rod was then.
     pub(super) at: DVec3,
+    /// Along the wall at right angles to the rod, and the curvature of the wall there in 1/mm.
+    pub(super) across: DVec3,
+    pub(super) curvature: f64,
+    /// What the wall's curvature holds the rod with as it moves across itself, in N/mm.
+    pub(super) hold: f64,
     /// The multiplier: the normal force in N at the end of the last step, or what `Self::update_multiplier` has made of it
     /// in this one.
     pub multiplier: f64,
@@ -54,7 +66,7 @@ pub struct Contact {
     first: f64,
     /// The normal force that the corrections have come to, from the gap as it was measured before them; before the first,
     /// that of the step's beginning.
-    found: f64,
+    pub(super) found: f64,
     /// The elastic part of its slip, in mm: how far the spring that friction is while it sticks is stretched.
     slip: DVec3,
     /// What friction does to the rod, in N.
@@ -75,7 +87,11 @@ impl Contact {
         normal: DVec3::Z,
         smooth: DVec3::Z,
         gap: 0.0,
+        penalty: PENALTY,
         at: DVec3::ZERO,
+        across: DVec3::ZERO,
+        curvature: 0.0,
+        hold: 0.0,
         multiplier: 0.0,
         first: 0.0,
         found: 0.0,
@@ -104,10 +120,16 @@ impl Contact {
         self.gap + self.normal.dot(self.place(rod, node) - self.at)
     }
 
+    /// How far it has moved across itself since the gap was measured.
+    #[inline]
+    pub(super) fn moved_across(&self, rod: &Rod, node: usize) -> f64 {
+        self.across.dot(self.place(rod, node) - self.at)
+    }
+
     /// The normal force in the step, as the rod is now.
     #[inline]
-    fn pressure(&self, rod: &Rod, node: usize, penalty: f64) -> f64 {
-        (self.multiplier - penalty * self.gap_now(rod, node)).max(0.0)
+    fn pressure(&self, rod: &Rod, node: usize, stiffer: f64) -> f64 {
+        (self.multiplier - stiffer * self.penalty * self.gap_now(rod, node)).max(0.0)
     }
 
     /// The slip as it would be now if the contact stuck, and the direction in which the wire's surface goes when it
@@ -126,9 +148,9 @@ impl Contact {
 
     /// The energy of the contact, in N mm: what the normal force and friction are the derivatives of.
     #[inline]
-    pub(super) fn potential(&self, rod: &Rod, node: usize, radius: f64, penalty: f64) -> f64 {
-        let force = self.pressure(rod, node, penalty);
-        let pressed = 0.5 * force * force / penalty;
+    pub(super) fn potential(&self, rod: &Rod, node: usize, radius: f64, stiffer: f64) -> f64 {
+        let (force, across) = (self.pressure(rod, node, stiffer), self.moved_across(rod, node));
+        let pressed = 0.5 * (force * force / (stiffer * self.penalty) + self.hold * across * across);
         if self.limit <= 0.0 {
             return pressed;
         }
@@ -147,12 +169,13 @@ impl Contact {
     #[inline]
     pub(super) fn set_limit(&mut self, friction: [f64; 2]) {
         self.limit = friction[usize::from(self.is_sliding)] * self.found;
+        self.hold = self.curvature * self.found;
     }
 
     /// Notes the force that the corrections have come to.
     #[inline]
-    pub(super) fn note_force(&mut self, rod: &Rod, node: usize, penalty: f64) {
-        self.found = self.pressure(rod, node, penalty);
+    pub(super) fn note_force(&mut self, rod: &Rod, node: usize, stiffer: f64) {
+        self.found = self.pressure(rod, node, stiffer);
     }
 
     /// Makes the force that the corrections have come to the multiplier of those that follow.
@@ -168,6 +191,18 @@ impl Contact {
     /// Lets go of all force: the next step finds it anew.
     pub(super) fn forget(&mut self) {
         (self.multiplier, self.slip, self.friction) = (0.0, DVec3::ZERO, DVec3::ZERO);
+    }
+
+    /// Takes on what another contact holds.
+    pub(super) fn join(&mut self, other: &Self) {
+        self.multiplier += other.multiplier;
+        self.first += other.first;
+        self.found += other.found;
+        self.slip += other.slip;
+        self.friction += other.friction;
+        self.limit += other.limit;
+        self.hold += other.hold;
+        self.is_sliding |= other.is_sliding;
     }
 
     /// Ends a step: the multiplier is now that of the next step's start, no more than `rise` N above what it was, and the

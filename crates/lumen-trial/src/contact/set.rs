@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::detection::Manifold;
-use super::law::{Contact, PENALTY};
+use super::law::Contact;
 use super::spring::{Open, Spring, Springs, spread};
 use crate::rod::Rod;
 use crate::wall::Wall;
@@ -19,14 +19,14 @@ pub struct Contacts {
     pub radius: f64,
     /// Coefficients of friction, sticking and sliding.
     pub friction: [f64; 2],
-    /// The penalty of each contact in the corrections that follow, in N/mm.
-    penalty: f64,
+    /// How many times its own the penalty of each contact is in the corrections that follow.
+    stiffer: f64,
 }
 
 impl Contacts {
     /// None yet, for a rod of this radius in mm and these coefficients of friction.
     pub fn new(radius: f64, friction: [f64; 2]) -> Self {
-        Self { manifold: Manifold::default(), radius, friction, penalty: PENALTY }
+        Self { manifold: Manifold::default(), radius, friction, stiffer: 1.0 }
     }
 
     /// Measures the gaps of the first `count` nodes, the last one excepted, and of the edges between them. Returns how far
@@ -57,7 +57,7 @@ impl Contacts {
 
     /// Begins a step.
     pub fn begin(&mut self) {
-        self.penalty = PENALTY;
+        self.stiffer = 1.0;
         self.manifold.each(|_, contact| contact.begin());
     }
 
@@ -69,19 +69,24 @@ impl Contacts {
 
     /// The energy of all contacts, in N mm.
     pub fn potential(&self, rod: &Rod) -> f64 {
-        self.near().map(|(node, contact)| contact.potential(rod, node, self.radius, self.penalty)).sum()
+        self.near().map(|(node, contact)| contact.potential(rod, node, self.radius, self.stiffer)).sum()
     }
 
     /// The contacts as they are along a straight change of the rod from where it is now.
     pub(crate) fn linearise(&self, rod: &Rod, springs: &mut Springs) {
         springs.clear();
         for (node, contact) in self.near() {
-            let force = contact.multiplier - self.penalty * contact.gap_now(rod, node);
-            if contact.limit <= 0.0 && force <= 0.0 {
-                springs.open.push(Open::new(node, contact.along, contact.normal, force, self.penalty));
+            let penalty = self.stiffer * contact.penalty;
+            let force = contact.multiplier - penalty * contact.gap_now(rod, node);
+            if contact.limit <= 0.0 && contact.hold <= 0.0 && force <= 0.0 {
+                springs.open.push(Open::new(node, contact.along, contact.normal, force, penalty));
                 continue;
             }
-            let spring = Spring::new(node, spread(contact.normal, 0.0, contact.along), force, self.penalty);
+            let spring = Spring::new(node, spread(contact.normal, 0.0, contact.along), force, penalty).with_hold(
+                contact.hold,
+                contact.moved_across(rod, node),
+                spread(contact.across, 0.0, contact.along),
+            );
             springs.closed.push(if contact.limit > 0.0 {
                 self.with_friction(spring, rod, node, contact)
             } else {
@@ -100,20 +105,20 @@ impl Contacts {
 
     /// Notes the forces that the corrections have come to.
     pub fn note_forces(&mut self, rod: &Rod) {
-        let penalty = self.penalty;
-        self.manifold.each(|node, contact| contact.note_force(rod, node, penalty));
+        let stiffer = self.stiffer;
+        self.manifold.each(|node, contact| contact.note_force(rod, node, stiffer));
     }
 
     /// Lets the corrections that follow begin with the forces that those before have come to, and be stiffer: what is
     /// pushed hard into the wall would come out of it too slowly.
     pub fn update_multipliers(&mut self) {
-        self.penalty *= STIFFER;
+        self.stiffer *= STIFFER;
         self.manifold.each(|_, contact| contact.update_multiplier());
     }
 
     /// Goes back to the multipliers at the beginning of the step.
     pub fn undo(&mut self) {
-        self.penalty = PENALTY;
+        self.stiffer = 1.0;
         self.manifold.each(|_, contact| contact.undo());
     }
 

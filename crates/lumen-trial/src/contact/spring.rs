@@ -22,8 +22,13 @@ pub(crate) struct Spring {
     slip: [f64; 2],
     /// Derivatives of that.
     sides: [[f64; 7]; 2],
-    /// By what force and slip change on the whole search direction.
+    /// What the wall's curvature holds it with, in N/mm, how far it has moved across itself, and the derivative of that.
+    hold: f64,
+    moved: f64,
+    across: [f64; 7],
+    /// By what force, slip and way across change on the whole search direction.
     change: (f64, [f64; 2]),
+    moves: f64,
     /// Stiffness that the search direction was found with: of the normal, and across.
     added_stiffness: (f64, [[f64; 2]; 2]),
 }
@@ -49,6 +54,14 @@ impl Spring {
         Self { limit, slip, sides, ..self }
     }
 
+    /// The same on a wall that comes round the lumen: what that holds it with in N/mm, how far it has moved across itself in
+    /// mm, and the derivative of that.
+    #[inline]
+    #[must_use]
+    pub(crate) fn with_hold(self, hold: f64, moved: f64, across: [f64; 7]) -> Self {
+        Self { hold, moved, across, ..self }
+    }
+
     /// Whether it presses.
     #[inline]
     pub(crate) fn is_closed(&self) -> bool {
@@ -67,6 +80,9 @@ impl Spring {
         if self.is_closed() {
             self.added_stiffness.0 = self.penalty;
             rod.add_spring(self.node, &self.normal, -self.force, self.penalty);
+        }
+        if self.hold > 0.0 {
+            rod.add_spring(self.node, &self.across, self.hold * self.moved, self.hold);
         }
         if self.limit <= 0.0 {
             return;
@@ -94,19 +110,21 @@ impl Spring {
         let by = rod.direction(self.node);
         let sides = if self.limit > 0.0 { [dot(&self.sides[0], by), dot(&self.sides[1], by)] } else { [0.0; 2] };
         self.change = (-self.penalty * dot(&self.normal, by), sides);
+        self.moves = if self.hold > 0.0 { dot(&self.across, by) } else { 0.0 };
     }
 
     /// Whether it does anything between here and a part of the direction.
     #[inline]
     pub(crate) fn is_live(&self, part: f64) -> bool {
-        self.force > 0.0 || self.limit > 0.0 || self.force + part * self.change.0 > 0.0
+        self.force > 0.0 || self.limit > 0.0 || self.hold > 0.0 || self.force + part * self.change.0 > 0.0
     }
 
     /// The slope of its energy by the part of the direction, at a part.
     #[inline]
     pub(crate) fn slope(&self, part: f64) -> f64 {
         let (change, [dx, dy]) = self.change;
-        let pressed = (self.force + part * change).max(0.0) * change / self.penalty;
+        let pressed = (self.force + part * change).max(0.0) * change / self.penalty
+            + self.hold * (self.moved + part * self.moves) * self.moves;
         if self.limit <= 0.0 {
             return pressed;
         }
@@ -122,7 +140,7 @@ impl Spring {
         let (change, [dx, dy]) = self.change;
         let (normal, [[xx, xy], [yx, yy]]) = self.added_stiffness;
         let pressed = if normal > 0.0 { change * change / self.penalty } else { 0.0 };
-        pressed + dx * (xx * dx + xy * dy) + dy * (yx * dx + yy * dy)
+        pressed + self.hold * self.moves * self.moves + dx * (xx * dx + xy * dy) + dy * (yx * dx + yy * dy)
     }
 
     /// What the springs that were added for the direction change by on it: node, derivative, force.
@@ -134,7 +152,8 @@ impl Spring {
         let pressed = (normal > 0.0).then_some((self.node, self.normal, -change));
         let stuck =
             (self.limit > 0.0).then(|| (0..2).map(move |i| (self.node, self.sides[i], by[i]))).into_iter().flatten();
-        pressed.into_iter().chain(stuck)
+        let held = (self.hold > 0.0).then_some((self.node, self.across, self.hold * self.moves));
+        pressed.into_iter().chain(held).chain(stuck)
     }
 
     /// Goes a part of the direction. Returns whether it opened, closed, stuck or slid there.
@@ -144,6 +163,7 @@ impl Spring {
         let before = state(self);
         let (force, slip) = self.change;
         self.force += part * force;
+        self.moved += part * self.moves;
         for (slip, change) in self.slip.iter_mut().zip(slip) {
             *slip += part * change;
         }

@@ -69,6 +69,24 @@ impl Wall {
         &self.index
     }
 
+    /// Of a triangle, of length 1; none if it has no area.
+    pub(super) fn normal(&self, triangle: u32) -> Option<DVec3> {
+        let [a, b, c] = self.capped.corners(triangle as usize).map(Vec3::as_dvec3);
+        (b - a).cross(c - a).try_normalize()
+    }
+
+    /// Of the wall along `way` at a triangle, in 1/mm, as the interpolated normal turns there; positive where the wall comes
+    /// round the lumen, and 0 where it falls away.
+    pub(super) fn curvature(&self, triangle: u32, way: DVec3) -> f64 {
+        let [a, b, c] = self.capped.corners(triangle as usize).map(Vec3::as_dvec3);
+        let [from, to_b, to_c] = self.capped.triangles[triangle as usize].map(|v| self.normals[v as usize].as_dvec3());
+        let (ab, ac) = (b - a, c - a);
+        let area = ab.cross(ac);
+        let turn = (to_b - from) * area.dot(way.cross(ac)) + (to_c - from) * area.dot(ab.cross(way));
+        let curvature = turn.dot(way) / area.length_squared();
+        if curvature > 0.0 { curvature } else { 0.0 }
+    }
+
     /// Into the lumen, where the wire is at `p` and the wall is nearest at `projection`: the interpolated normal, so that
     /// facets are not felt, and the way from the wall where that is another one, at ridges and slivers.
     pub(super) fn inward(&self, p: DVec3, projection: &PointProjection) -> DVec3 {
@@ -105,7 +123,7 @@ fn capped(mesh: &Arc<TriMesh>, topology: &Topology) -> Arc<TriMesh> {
 mod tests {
     use super::*;
     use lumen_mesh::SegmentProjection;
-    use lumen_mesh::shapes::icosphere;
+    use lumen_mesh::shapes::{icosphere, tube};
 
     /// Numbers from -1 to 1.
     fn random() -> impl FnMut() -> f64 {
@@ -113,6 +131,18 @@ mod tests {
         move || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             f64::from(state >> 8) / f64::from(1 << 23) - 1.0
+        }
+    }
+
+    #[test]
+    fn a_tube_is_round_across_itself_alone() {
+        let wall = Wall::open(Arc::new(tube(48, 20, 10.0, |_| 2.0)));
+        for triangle in 0..48 * 18 {
+            let middle: DVec3 = wall.mesh().corners(triangle).iter().map(|p| p.as_dvec3() / 3.0).sum();
+            let out = middle.reject_from(DVec3::Z).normalize();
+            let curvature = wall.curvature(triangle as u32, DVec3::Z.cross(out));
+            assert!((curvature - 0.5).abs() < 0.02, "{curvature} at {middle}");
+            assert!(wall.curvature(triangle as u32, DVec3::Z) < 0.02);
         }
     }
 

@@ -79,7 +79,7 @@ mod tests {
     fn a_preset_becomes_sections_of_its_stiffness_mass_and_bend() {
         for (name, diameter, [tip, shaft], [soft, taper], degrees) in [
             ("floppy", 0.356, [0.05, 38.0], [30.0, 300.0], 45.0),
-            ("workhorse", 0.356, [0.1, 40.0], [30.0, 300.0], 45.0),
+            ("workhorse", 0.356, [0.1, 40.0], [30.0, 300.0], 60.0),
             ("stiff", 0.356, [1.5, 150.0], [20.0, 200.0], 45.0),
             ("035-j", 0.889, [1.0, 291.0], [30.0, 150.0], 180.0),
         ] {

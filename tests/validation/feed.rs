@@ -1,0 +1,51 @@
+//! A wire that is fed faster comes to the same place: at a hand's fastest feed its inertia and drag are nothing beside its
+//! stiffness.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use lumen::trial::report::StepKind;
+use lumen::trial::setup::{Entry, Input};
+use lumen::trial::simulation::Simulation;
+use lumen::trial::wall::Wall;
+use lumen::trial::wire::Wire;
+
+use crate::benchmark::Benchmark;
+use crate::benchmark::Tolerance::Within;
+use lumen_test_support::tubes::{curve, tube};
+
+/// Where the tip of a wire comes to in an S-shaped tube, and the part of the steps that are braked.
+fn fed(wire: &Wire, speed: f32) -> (DVec3, f64) {
+    let path = curve(&[(20.0, f64::INFINITY), (40.0, 25.0), (40.0, -25.0), (40.0, f64::INFINITY)], 0.5);
+    let wall = Arc::new(Wall::open(Arc::new(tube(&path, |_| 1.5, 24))));
+    let entry = Entry { at: [4.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0] };
+    let mut simulation = Simulation::new(wire, wire.friction, &entry, 0.0, Some(wall)).unwrap();
+    let mut braked = 0.0;
+    while simulation.inserted() < 110.0 && simulation.steps() < 8000 {
+        let report = simulation.step(Input { feed: speed, roll: 0.0 });
+        braked += f64::from(u8::from(report.kind >= StepKind::Braked));
+    }
+    (simulation.tip(), braked / simulation.steps() as f64)
+}
+
+#[test]
+fn a_wire_comes_to_the_same_place_however_fast_it_is_fed() {
+    let mut found = Benchmark::new("feed");
+    for wire in ["floppy", "workhorse", "stiff"].map(|name| Wire::preset(name).unwrap()) {
+        let (slow, _) = fed(&wire, 20.0);
+        for speed in [30.0, 40.0, 50.0] {
+            let (tip, braked) = fed(&wire, speed);
+            let what = format!("{} at {speed} mm/s", wire.name);
+            found.compare(
+                &format!("tip from where it comes to at 20 mm/s (mm): {what}"),
+                0.0,
+                tip.distance(slow),
+                Within(0.2),
+                0,
+            );
+            found.compare(&format!("part of the steps that are braked: {what}"), 0.0, braked, Within(0.02), 0);
+            found.point(&wire.name, f64::from(speed), tip.distance(slow));
+        }
+    }
+    found.finish();
+}
