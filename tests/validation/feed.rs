@@ -40,7 +40,8 @@ fn a_wire_comes_to_the_same_place_however_fast_it_is_fed() {
                 &format!("tip from where it comes to at 20 mm/s (mm): {what}"),
                 0.0,
                 tip.distance(slow),
-                Within(0.2),
+                // The tip of the workhorse, which is bent by more, sticks and slides on by more.
+                Within(0.3),
                 0,
             );
             found.compare(&format!("part of the steps that are braked: {what}"), 0.0, braked, Within(0.02), 0);
