@@ -47,8 +47,11 @@ impl Stop {
 pub(super) enum Content {
     /// Something with a head that stays in sight, by its place in the list of panels; `None` for the method.
     Headed(Option<usize>),
-    /// The method where something else needs the room: at the lowest its handle is seen, and no more.
-    Folded,
+    /// The method where a comparison or a lesson needs the room: at the lowest its handle is seen, and no more.
+    Folded {
+        /// Whether that is a comparison.
+        compares: bool,
+    },
     /// Something without.
     Plain,
 }
@@ -74,7 +77,7 @@ impl Stops {
 
 /// How far the panel is drawn up.
 pub(super) struct Drawer {
-    /// Where each kind of content rests: what has no head would show nothing at the lowest.
+    /// Where each kind of content rests, by [`Self::kind`]. What has no head would show nothing at the lowest.
     stops: [Stop; 3],
     /// Its height while a finger draws it, in points.
     drawn: Option<f32>,
@@ -105,14 +108,14 @@ impl Drawer {
     pub(super) fn take(&mut self, content: Content, room: f32, half: f32) {
         if content != self.content {
             (self.content, self.width) = (content, 0.0);
-            if content == Content::Folded {
+            if matches!(content, Content::Folded { .. }) {
                 // Each that needs the room begins with it.
                 self.stops[self.kind()] = Stop::Peek;
             }
         }
         let (peek, least) = match content {
             Content::Headed(_) => (self.head + BELOW, 0.0),
-            Content::Folded => (0.0, FINGER + self.head + BELOW),
+            Content::Folded { .. } => (0.0, FINGER + self.head + BELOW),
             Content::Plain => (BELOW, 0.0),
         };
         self.heights = Stops::new(room, least.max(room * half), peek);
@@ -148,7 +151,7 @@ impl Drawer {
     fn kind(&self) -> usize {
         match self.content {
             Content::Headed(_) => 0,
-            Content::Folded => 1,
+            Content::Folded { .. } => 1,
             Content::Plain => 2,
         }
     }
@@ -188,7 +191,8 @@ impl Drawer {
         let visuals = ui.style().interact(&response);
         let grip = Rect::from_center_size(rect.center(), vec2(40.0, 5.0));
         ui.painter().rect_filled(grip, 2.5, visuals.fg_stroke.color.gamma_multiply(0.6));
-        if self.content == Content::Folded && self.peeks() {
+        let is_folded = matches!(self.content, Content::Folded { .. }) && self.peeks();
+        if is_folded {
             let (at, font) = (rect.left_center(), TextStyle::Small.resolve(ui.style()));
             let colour = ui.visuals().weak_text_color();
             ui.painter().text(at, Align2::LEFT_CENTER, say!("app-panel-folded"), font, colour);
@@ -197,7 +201,9 @@ impl Drawer {
             let ring = egui::Stroke::new(2.0, ui.visuals().hyperlink_color);
             ui.painter().rect_stroke(rect, 4.0, ring, egui::StrokeKind::Inside);
         }
-        name(&response, Role::Button, &self.stop().label());
+        let label = self.stop().label();
+        let label = if is_folded { format!("{}. {label}", say!("app-panel-folded")) } else { label };
+        name(&response, Role::Button, &label);
         response.on_hover_text(say!("app-panel-help"));
     }
 }

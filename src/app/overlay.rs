@@ -63,10 +63,10 @@ const LOW_COLOURED: f32 = 280.0;
 /// Below this height there is room for a title alone, and that it is not for clinical decisions, in points.
 const LOWEST: f32 = 72.0;
 
-/// Colours are told where their bar is at least this high, in points.
+/// Colours, and labels, are told where a bar would be at least this high, in points.
 const LEAST_BAR: f32 = 32.0;
 
-/// Says that it is not for clinical decisions: in the bar below, or, where that has no room for it, in each view.
+/// Says that it is not for clinical decisions, once in a window: in the bar below, or over a view where that has no room.
 pub(super) const NOT_CLINICAL: Key = Key("about-not-clinical");
 
 /// Writes over the view in `rect`.
@@ -79,13 +79,14 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
     labels::stands(ui.ctx(), title);
     let small = FontId::proportional(12.0);
     let is_coloured = writing.legend.is_some() || writing.array.is_some();
+    let tells_colours = is_coloured && bar_in(inner).height() >= LEAST_BAR;
     if let Some(name) = writing.name.filter(|_| inner.height() >= LOWEST) {
         let galley = painter.layout(name.to_owned(), small.clone(), weak, inner.width() * 0.6);
         labels::stands(ui.ctx(), Rect::from_min_size(inner.left_top() + vec2(0.0, 20.0), galley.size()));
         halo::galley(&painter, inner.left_top() + vec2(0.0, 20.0), galley, weak);
         scale_bar(&painter, inner, rect.height(), writing.camera, text);
         // Legends stand at the right, and in a low view there is room for one of the two.
-        if has_axes(inner, is_coloured) {
+        if has_axes(inner, tells_colours) {
             orientation(&painter, inner, writing.camera, writing.axes, text);
         }
     }
@@ -100,7 +101,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
         let place = halo::text(&painter, place, align, &NOT_CLINICAL.say(), small, weak);
         labels::stands(ui.ctx(), place);
     }
-    if bar_in(inner).height() < LEAST_BAR {
+    if !tells_colours {
         return;
     }
     if let Some(colours) = &writing.legend {

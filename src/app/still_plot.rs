@@ -28,8 +28,8 @@ pub(super) fn tick(mark: GridMark, _: &RangeInclusive<f64>) -> String {
     decimal(mark.value, (-mark.step_size.log10() - 1e-9).ceil().max(0.0) as usize)
 }
 
-/// At most `most` marks between two values, 1, 2 or 5 of a power of ten apart. Egui's are a power of ten apart: often one is
-/// seen.
+/// Marks between two values, 1, 2 or 5 of a power of ten apart, so that at most `most` of their distances fit in. Egui's are
+/// a power of ten apart: often one is seen.
 pub(super) fn marks((low, high): (f64, f64), most: usize) -> Vec<GridMark> {
     let least = (high - low) / most as f64;
     let power = 10.0_f64.powf(least.log10().floor());
@@ -37,7 +37,7 @@ pub(super) fn marks((low, high): (f64, f64), most: usize) -> Vec<GridMark> {
     if !(step.is_finite() && step > 0.0) {
         return Vec::new();
     }
-    let (first, last) = ((low / step).ceil(), (high / step).floor());
+    let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
     let values = (0..=most).map(|i| first + i as f64).take_while(|value| *value <= last);
     values.map(|value| GridMark { value: value * step, step_size: step }).collect()
 }
@@ -53,6 +53,8 @@ mod tests {
         assert_eq!(told((3.7, 5.6), 4), ["4.0", "4.5", "5.0", "5.5"]);
         assert_eq!(told((3.7, 5.6), 3), ["4", "5"]);
         assert_eq!(told((0.0, 30.0), 5), ["0", "10", "20", "30"]);
+        assert_eq!(told((0.0, 30.0), 3), ["0", "10", "20", "30"]);
+        assert_eq!(told((0.1, 0.3), 2), ["0.1", "0.2", "0.3"]);
         assert_eq!(told((0.91, 0.98), 4), ["0.92", "0.94", "0.96", "0.98"]);
         for width in (1..400).map(|i| 1.07_f64.powi(i - 200)) {
             let count = marks((0.3 * width, 1.3 * width), 6).len();

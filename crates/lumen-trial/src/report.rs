@@ -49,8 +49,8 @@ pub struct StepReport {
 }
 
 impl StepReport {
-    /// Of two parts of a step: how far they went together, the forces at the end, and the worse of the kinds. A step in which
-    /// the guide waits for one part alone is braked.
+    /// Of two parts of a step: how far they went together, the larger residual, push and torque at the end, and the worse of
+    /// the kinds. A step in which the guide waits for one part alone is braked.
     #[must_use]
     pub(super) fn followed_by(&self, next: &Self) -> Self {
         let (better, worse) = (self.kind.min(next.kind), self.kind.max(next.kind));
@@ -60,6 +60,7 @@ impl StepReport {
             fed_mm: self.fed_mm + next.fed_mm,
             wanted_rad: self.wanted_rad + next.wanted_rad,
             rolled_rad: self.rolled_rad + next.rolled_rad,
+            residual_n: self.residual_n.max(next.residual_n),
             ..*next
         }
     }
@@ -118,6 +119,19 @@ impl StepCounts {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn two_parts_of_a_step_are_one() {
+        let part =
+            |kind, fed_mm, residual_n| StepReport { kind, fed_mm, residual_n, push_n: fed_mm, ..Default::default() };
+        let both = part(StepKind::Balanced, 0.05, 0.3).followed_by(&part(StepKind::Unsettled, 0.03, 0.1));
+        assert_eq!((both.kind, both.residual_n, both.push_n), (StepKind::Unsettled, 0.3, 0.03));
+        assert!((both.fed_mm - 0.08).abs() < 1e-12);
+        let kind = |a, b| part(a, 0.0, 0.0).followed_by(&part(b, 0.0, 0.0)).kind;
+        assert_eq!(kind(StepKind::Balanced, StepKind::Waited), StepKind::Braked);
+        assert_eq!(kind(StepKind::Waited, StepKind::Held), StepKind::Waited);
+        assert_eq!(kind(StepKind::Held, StepKind::Held), StepKind::Held);
+    }
 
     #[test]
     fn kinds_are_counted_apart() {

@@ -155,7 +155,8 @@ impl Simulation {
         }
     }
 
-    /// A step of [`STEP`] seconds, in parts where it feeds farther than a part may.
+    /// A step of [`STEP`] seconds. One that feeds farther than [`FARTHEST`] is made of equal parts; what the wall bears is that
+    /// of the last one.
     pub fn step(&mut self, input: Input) -> StepReport {
         let parts = (f64::from(input.limited().feed.abs()) * STEP / FARTHEST).ceil().max(1.0);
         let mut report = self.step_by(STEP / parts, input);
@@ -167,7 +168,8 @@ impl Simulation {
         report
     }
 
-    /// A step of so many seconds: a trial's are all of [`STEP`], and what it finds hardly depends on that.
+    /// A step of `dt` seconds. A trial's are of [`STEP`], or equal parts of it where the feed is fast; what they find hardly
+    /// depends on that.
     pub fn step_by(&mut self, dt: f64, input: Input) -> StepReport {
         let input = input.limited();
         let (wanted_mm, turn) = (f64::from(input.feed) * dt, f64::from(input.roll) * dt);

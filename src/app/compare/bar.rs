@@ -31,13 +31,13 @@ pub(super) fn bar(
     asked: &mut Vec<Action>,
 ) -> bool {
     let mut is_held = false;
-    let mut asked = |action: Action| asked.push(action);
+    let mut ask = |action: Action| asked.push(action);
     ui.horizontal_wrapped(|ui| {
-        begin(ui, comparison, settings, is_narrow, &mut asked);
+        begin(ui, comparison, settings, is_narrow, &mut ask);
         if !is_narrow {
             let list =
                 ComboBox::from_id_salt("arrangement").width(96.0).selected_text(comparison.arrangement.label().say());
-            let response = list.show_ui(ui, |ui| arrangements(ui, comparison, &mut asked));
+            let response = list.show_ui(ui, |ui| arrangements(ui, comparison, &mut ask));
             name(&response.response, Role::ComboBox, &say!("compare-show-as"));
         }
         let flicker = egui::Button::new(say!("compare-first")).sense(Sense::click_and_drag()).selected(shows_first);
@@ -46,17 +46,17 @@ pub(super) fn bar(
         let help = say!("compare-done-help");
         let is_done = if is_narrow {
             icon_menu(ui, Icon::Menu, &say!("compare-more"), &say!("compare-more-help"), &mut |ui| {
-                arrangements(ui, comparison, &mut asked);
+                arrangements(ui, comparison, &mut ask);
                 ui.separator();
-                others(ui, comparison, &mut asked);
+                others(ui, comparison, &mut ask);
             });
             icon::button(ui, Icon::Close, true, &say!("compare-done"), &help).clicked()
         } else {
-            others(ui, comparison, &mut asked);
+            others(ui, comparison, &mut ask);
             ui.button(say!("compare-done")).on_hover_text(help).clicked()
         };
         if is_done {
-            asked(Action::Comparison(OfComparison::Close));
+            ask(Action::Comparison(OfComparison::Close));
         }
     });
     is_held

@@ -54,9 +54,9 @@ struct Look {
 impl Look {
     /// Goes once, when all differences are known; not on a phone, whose small pictures would show a patch of wall.
     fn follow(&mut self, comparison: &Comparison, camera: &mut Camera, is_narrow: bool) {
-        if let Some(largest) = comparison.largest_difference().filter(|_| !self.has_gone && !is_narrow) {
+        if let Some(largest) = comparison.largest_difference().filter(|_| !self.has_gone) {
             self.has_gone = true;
-            if let Some((at, height_mm)) = largest.patch().filter(|_| !self.was_moved) {
+            if let Some((at, height_mm)) = largest.patch().filter(|_| !self.was_moved && !is_narrow) {
                 let before = *camera;
                 camera.focus(at, height_mm);
                 self.went = Some([before, *camera]);
@@ -195,7 +195,7 @@ impl CompareView {
                 let scalars = difference.map(|found| &found.by_vertex).filter(|values| !values.is_empty());
                 let most = scalars.and(comparison.colours_up_to_mm());
                 let map = most.map(|most| ColourMap { range: (0.0, most) });
-                // Its other names are "A" and "first".
+                // The first is told to be the reference, coloured or not. While its settings are shown everywhere, no cell is.
                 let note = if i == 0 && count > 1 && first.is_none() {
                     say!("compare-reference")
                 } else {

@@ -70,8 +70,8 @@ pub(super) fn show(ui: &mut Ui, given: &Given, has_links: bool, is_measuring: bo
         });
         ui.add_space(8.0);
     }
-    // Each step is read from its beginning.
-    ScrollArea::vertical().id_salt(given.step).auto_shrink(false).show(ui, |ui| {
+    // Each step of each lesson scrolls by itself.
+    ScrollArea::vertical().id_salt((&given.lesson.title, given.step)).auto_shrink(false).show(ui, |ui| {
         if !has_room && !is_side {
             wrapped(ui, &place, RichText::weak);
         }

@@ -163,10 +163,11 @@ impl LumenApp {
             return self.presented(ui, mode);
         }
         // On a phone the pictures that are compared, or a lesson's card, need the room.
-        let needs_room = mode == Mode::Compare || self.panels.lesson.given().is_some();
+        let compares = mode == Mode::Compare;
+        let needs_room = compares || self.panels.lesson.given().is_some();
         let content = match instead {
             Some(index) if !self.panels.all()[index].has_head() => Content::Plain,
-            None if is_drawn && self.is_narrow && needs_room => Content::Folded,
+            None if is_drawn && self.is_narrow && needs_room => Content::Folded { compares },
             instead => Content::Headed(instead),
         };
         self.drawer.take(content, ui.available_height(), part);
@@ -185,14 +186,14 @@ impl LumenApp {
             let is_low = is_drawn && self.drawer.peeks();
             match (content, instead) {
                 (Content::Headed(_), _) => self.headed(ui, mode, instead, is_low, asked),
-                (Content::Folded, _) if !is_low => self.headed(ui, mode, instead, false, asked),
+                (Content::Folded { .. }, _) if !is_low => self.headed(ui, mode, instead, false, asked),
                 (Content::Plain, Some(index)) if !is_low => {
                     let (panels, now) = self.with_now(mode);
                     if let Some(panel) = panels.all_mut().into_iter().nth(index) {
                         panel.show(ui, now, asked);
                     }
                 }
-                (Content::Folded | Content::Plain, _) => {}
+                (Content::Folded { .. } | Content::Plain, _) => {}
             }
         });
         assist::name_edge(ui, "panel");

@@ -199,9 +199,13 @@ impl Filling for TrialPanel {
         self.view.refuse();
     }
 
-    fn release(&mut self, _: &State, views: &mut Views) {
-        if !(self.trial.is_open() || self.trial.tables.needs_views()) {
-            self.view.leave(views);
+    fn release(&mut self, state: &State, views: &mut Views) {
+        if self.trial.is_open() {
+            return;
+        }
+        self.view.leave(views, state.document.as_ref());
+        if !self.trial.tables.needs_views() {
+            self.view.release();
         }
     }
 

@@ -121,7 +121,7 @@ app-tab-wireframe-help = Die Ansicht als Drahtgitter
 app-panel-low = Höhe der Leiste: niedrig
 app-panel-half = Höhe der Leiste: halb
 app-panel-full = Höhe der Leiste: voll
-# The edge of a panel, which is drawn.
+# Name of a panel's edge, which is dragged to resize it; for assistive tools.
 app-panel-edge = Größe der Leiste
 # On the handle of a panel that is folded away.
 app-panel-folded = Regler
@@ -145,7 +145,7 @@ app-keys = Tasten und Gesten
 app-close = Schließen
 app-touch-one = Ein Finger
 app-touch-two = Zwei Finger
-app-touch-two-does = Verschieben, durch Spreizen vergrößern
+app-touch-two-does = Verschieben; auf- und zuziehen zum Zoomen
 app-touch-double = Doppeltippen
 # Above the keys, where what stands before is for fingers.
 app-keys-keyboard = Mit Maus und Tastatur

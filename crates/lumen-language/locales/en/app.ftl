@@ -131,7 +131,7 @@ app-tab-wireframe-help = The wireframe view
 app-panel-low = Panel height: low
 app-panel-half = Panel height: half
 app-panel-full = Panel height: full
-# The edge of a panel, which is drawn.
+# Name of a panel's edge, which is dragged to resize it; for assistive tools.
 app-panel-edge = Panel size
 # On the handle of a panel that is folded away.
 app-panel-folded = Sliders

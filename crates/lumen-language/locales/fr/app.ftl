@@ -121,7 +121,7 @@ app-tab-wireframe-help = La vue en fil de fer
 app-panel-low = Hauteur du panneau : basse
 app-panel-half = Hauteur du panneau : moyenne
 app-panel-full = Hauteur du panneau : pleine
-# The edge of a panel, which is drawn.
+# Name of a panel's edge, which is dragged to resize it; for assistive tools.
 app-panel-edge = Taille du panneau
 # On the handle of a panel that is folded away.
 app-panel-folded = Curseurs

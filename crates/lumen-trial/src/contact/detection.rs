@@ -29,11 +29,11 @@ const DEEPER: f64 = 0.01;
 
 /// Cosine of the turn below which two triangles are one facet: a degree.
 const SAME: f64 = 0.99985;
-/// The most that the curvature of the wall is, over 1 / the distance of the wire's middle from it.
+/// The wall's curvature times the distance of the wire's middle from it is at most this.
 const ROUNDEST: f64 = 0.5;
-/// Triangles that a contact goes on over in a step.
+/// A contact passes over at most this many triangles in a step.
 const TRIANGLES: usize = 8;
-/// Cosine of the way from the wall and a triangle's normal above which a node is above the triangle.
+/// A node is above a triangle where the cosine between its way from the wall and the triangle's normal is more than this.
 const ABOVE: f64 = 1.0 - 1e-9;
 /// Facets that a node can touch at once.
 const FACETS: usize = 3;
@@ -295,7 +295,8 @@ impl Manifold {
     }
 }
 
-/// Where a contact of a node at `p` is now, and whether that is where the wall is nearest, which the node is `away` from.
+/// Where the contact is for a node at `p`, and whether that is where the wall is nearest to the node; `None` where its leaf is
+/// none of the index. `away` is the way from the nearest point of the wall to the node.
 ///
 /// As long as the node is above its triangle, it is with that. Once the node has left that, over a side from which the
 /// wall goes straight on or falls away, it goes on to the next one; over a valley it stays with its plane, which lies

@@ -69,13 +69,13 @@ impl Wall {
         &self.index
     }
 
-    /// Of a triangle, of length 1; none if it has no area.
+    /// The normal of a triangle, of length 1; `None` if it has no area.
     pub(super) fn normal(&self, triangle: u32) -> Option<DVec3> {
         let [a, b, c] = self.capped.corners(triangle as usize).map(Vec3::as_dvec3);
         (b - a).cross(c - a).try_normalize()
     }
 
-    /// Of the wall along `way` at a triangle, in 1/mm, as the interpolated normal turns there; positive where the wall comes
+    /// The curvature of the wall along `way` at a triangle, in 1/mm, as the interpolated normal turns there; positive where the wall comes
     /// round the lumen, and 0 where it falls away.
     pub(super) fn curvature(&self, triangle: u32, way: DVec3) -> f64 {
         let [a, b, c] = self.capped.corners(triangle as usize).map(Vec3::as_dvec3);

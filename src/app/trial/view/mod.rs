@@ -8,6 +8,7 @@ mod tip;
 use std::sync::Arc;
 
 use egui::{Align2, Rect, Role, Sense, Ui, vec2};
+use glam::Quat;
 
 use self::arrangement::{buttons, large_button, places, tip_button, words_width};
 use self::fluoroscopy::Fluoroscopy;
@@ -54,10 +55,20 @@ pub(in crate::app) struct TrialView {
     /// The picture of the wire that they have.
     picture: Option<(u64, u64)>,
     fluoroscopy: Fluoroscopy,
-    /// Whether the camera has the whole vessel in view, as a trial begins.
+    /// Whether the whole vessel was brought into view, as a trial begins.
     has_fitted: bool,
     /// From where the user looked before, where that was another place.
-    looked: Option<Camera>,
+    looked: Option<Looked>,
+}
+
+/// From where the user looked before a trial.
+#[derive(Clone, Copy)]
+struct Looked {
+    /// The number of the surface.
+    document: u64,
+    camera: Camera,
+    /// How the camera was turned as the trial began.
+    rotation: Quat,
 }
 
 impl TrialView {
@@ -80,14 +91,17 @@ impl TrialView {
         }
     }
 
-    /// Lets go of the camera, which looks from where it did before the trial, unless the user has moved it meanwhile; and of
-    /// the memory of the device.
-    pub(in crate::app::trial) fn leave(&mut self, views: &mut Views) {
+    /// Lets go of the camera. It looks from where it did before the trial, unless the user has turned or moved it meanwhile or
+    /// another surface is open.
+    pub(in crate::app::trial) fn leave(&mut self, views: &mut Views, document: Option<&Document>) {
         self.has_fitted = false;
-        if let Some(looked) = self.looked.take().filter(|_| views.is_fitted()) {
-            views.camera = looked;
+        let document = document.map(|document| document.revision.document);
+        let stands = |looked: &Looked| {
+            document == Some(looked.document) && views.is_fitted() && views.camera.rotation == looked.rotation
+        };
+        if let Some(looked) = self.looked.take().filter(stands) {
+            views.camera = looked.camera;
         }
-        self.release();
     }
 
     /// Gives back the memory of the device.
@@ -167,8 +181,10 @@ impl TrialView {
         views.take_shape(first, 1, document, keep);
         if !std::mem::replace(&mut self.has_fitted, true) {
             // A wire that goes in elsewhere than where the user has looked last would not be seen.
-            self.looked = looked;
             views.fit(document, keep);
+            let rotation = views.camera.rotation;
+            let of = looked.zip(document.map(|document| document.revision.document));
+            self.looked = of.map(|(camera, document)| Looked { document, camera, rotation });
         }
         if let Some(at) = trial.open.as_mut().and_then(|open| open.flight.take()) {
             views.fly(at, AROUND);

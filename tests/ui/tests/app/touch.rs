@@ -179,13 +179,13 @@ fn the_panel_gives_its_room_to_a_lesson_and_to_a_comparison_and_a_tap_brings_it_
     assert!(!has_sliders(&harness) && cells.len() >= 2 && cells[1].bottom() < PHONE[1] - 100.0, "{cells:?}");
     let now = *harness.state().camera();
     assert!(now.target.distance(camera.target) < 0.1, "the whole vessel is seen, and not a patch of its wall");
-    click(&mut harness, "Panel height: low");
+    click(&mut harness, "Sliders. Panel height: low");
     harness.run_steps(3);
     assert!(has_sliders(&harness), "what is compared next is set here");
-    click(&mut harness, "Done");
+    // A step of a lesson ends the comparison.
     tell(&mut harness, &memory, PlatformEvent::Linked { fragment: "#lesson=windows&step=2".to_owned() });
     harness.run_steps(4);
-    // Folded again: it is another place.
+    assert!(!has_sliders(&harness), "folded again: it is another place");
     let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
     assert!(view.height() >= 160.0, "{view}");
 }

@@ -12,7 +12,7 @@ use lumen_ui_tests::told::{
     App, DESKTOP, FIRST, as_the_paper, asked, choose, frame, id_of_start, now, on, press, put_on, ready, refused,
     retarget, says, start, tell,
 };
-use lumen_ui_tests::{app, app_in_full, settle};
+use lumen_ui_tests::{app, app_in_full, open, settle, settle_wholly, tube};
 
 use super::{ADAPT, unfold};
 
@@ -152,16 +152,21 @@ fn a_level_that_is_no_longer_wanted_is_not_awaited() {
     assert!(asked(&memory).is_empty() && says(&harness, "0.0 cm"), "the trial before stands, at its entry");
 }
 
+/// Looks from near at the middle of the view.
+fn zoom(harness: &mut App) {
+    let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
+    harness.hover_at(view.center());
+    harness.event(egui::Event::Zoom(2.0));
+    harness.run_steps(12);
+}
+
 #[test]
 fn a_trial_begins_with_the_whole_vessel_in_view_and_goes_back_to_where_one_has_looked() {
     let (mut harness, memory) = app(DESKTOP);
     settle(&mut harness);
     let camera = |harness: &App| *harness.state().camera();
     let whole = camera(&harness);
-    let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
-    harness.hover_at(view.center());
-    harness.event(egui::Event::Zoom(2.0));
-    harness.run_steps(12);
+    zoom(&mut harness);
     let near = camera(&harness);
     assert!(near.distance < 0.7 * whole.distance, "{} of {}", near.distance, whole.distance);
     put_on(&mut harness, &memory);
@@ -169,4 +174,19 @@ fn a_trial_begins_with_the_whole_vessel_in_view_and_goes_back_to_where_one_has_l
     press(&mut harness, "Prepare");
     harness.run_steps(3);
     assert_eq!(camera(&harness), near);
+}
+
+#[test]
+fn who_opens_another_file_in_a_trial_sees_the_whole_of_that() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    zoom(&mut harness);
+    let near = *harness.state().camera();
+    put_on(&mut harness, &memory);
+    open(&mut harness, &memory, "tube.obj", tube(5.0, 60.0, 1.0));
+    settle_wholly(&mut harness);
+    let title = harness.state().state().document.as_ref().map(|open| open.title().into_owned());
+    assert_eq!(title.as_deref(), Some("tube.obj"));
+    let now = *harness.state().camera();
+    assert!(now.target != near.target && now.distance != near.distance, "{now:?}");
 }
