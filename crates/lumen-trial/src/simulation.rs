@@ -155,7 +155,7 @@ impl Simulation {
         }
     }
 
-    /// A step of [`STEP`] seconds. One that feeds farther than [`FARTHEST`] is made of equal parts; what the wall bears is that
+    /// A step of [`STEP`] seconds. One that feeds farther than `FARTHEST` is made of equal parts; what the wall bears is that
     /// of the last one.
     pub fn step(&mut self, input: Input) -> StepReport {
         let parts = (f64::from(input.limited().feed.abs()) * STEP / FARTHEST).ceil().max(1.0);
