@@ -175,9 +175,10 @@ impl Scene {
     fn follow_whole(&mut self, document: &Document) -> Result<(), SurfaceError> {
         let of = Before::Whole(document.revision.document, Arc::as_ptr(&document.opened).addr());
         if self.before_of != Some(of) {
-            // Its bytes arrived in this frame: the upload begins in the next.
+            // Its first part goes with the frame in which its bytes arrived, which takes long anyway.
             (self.before_of, self.uploaded) = (Some(of), Some(0));
-        } else if let Some(from) = self.uploaded {
+        }
+        if let Some(from) = self.uploaded {
             self.uploaded = self.before.upload_part(&self.device, &self.queue, &document.opened, from)?;
         }
         Ok(())

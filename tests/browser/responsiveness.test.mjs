@@ -123,11 +123,9 @@ function tasks(events, { pid, tid }, marks) {
     return { ts: task.ts, end: task.ts + task.dur, ms: ms(task), wall: task.dur / 1000, isFrame, what, takes: [] };
   });
   for (const { name, ts } of marks) {
-    // What departs does so within its task; what has arrived is taken over in the next frame, and shown in the one after.
-    const takers = name.startsWith("departure")
-      ? all.filter((task) => task.end >= ts).slice(0, 1)
-      : all.filter((task) => task.isFrame && task.ts >= ts).slice(0, 2);
-    takers.forEach((task) => task.takes.push(name));
+    // What departs does so within its task; what has arrived is taken over in the next frame.
+    const task = all.find((task) => (name.startsWith("departure") ? task.end >= ts : task.isFrame && task.ts >= ts));
+    task?.takes.push(name);
   }
   return all.sort((a, b) => b.ms - a.ms);
 }

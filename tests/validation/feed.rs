@@ -31,7 +31,9 @@ fn fed(wire: &Wire, speed: f32) -> (DVec3, f64) {
 #[test]
 fn a_wire_comes_to_the_same_place_however_fast_it_is_fed() {
     let mut found = Benchmark::new("feed");
-    for wire in ["floppy", "workhorse", "stiff"].map(|name| Wire::preset(name).unwrap()) {
+    // The tip of the workhorse is bent by 60 degrees, the others by 45: it sticks and slides on by more.
+    for (name, within_mm) in [("floppy", 0.2), ("workhorse", 0.3), ("stiff", 0.2)] {
+        let wire = Wire::preset(name).unwrap();
         let (slow, _) = fed(&wire, 20.0);
         for speed in [30.0, 40.0, 50.0] {
             let (tip, braked) = fed(&wire, speed);
@@ -40,8 +42,7 @@ fn a_wire_comes_to_the_same_place_however_fast_it_is_fed() {
                 &format!("tip from where it comes to at 20 mm/s (mm): {what}"),
                 0.0,
                 tip.distance(slow),
-                // The tip of the workhorse, which is bent by more, sticks and slides on by more.
-                Within(0.3),
+                Within(within_mm),
                 0,
             );
             found.compare(&format!("part of the steps that are braked: {what}"), 0.0, braked, Within(0.02), 0);

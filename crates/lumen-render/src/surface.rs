@@ -121,10 +121,12 @@ impl GpuSurface {
     }
 
     fn check(&self, indices: &[u32]) -> Result<(), SurfaceError> {
-        match indices.iter().max().filter(|&&index| index as usize >= self.nodes) {
-            Some(&index) => Err(SurfaceError::IndexOutOfRange { index, nodes: self.nodes }),
-            None => Ok(()),
+        // By value: the largest of references is found several times slower, and a million triangles have three million.
+        let largest = indices.iter().copied().fold(0, u32::max);
+        if indices.is_empty() || (largest as usize) < self.nodes {
+            return Ok(());
         }
+        Err(SurfaceError::IndexOutOfRange { index: largest, nodes: self.nodes })
     }
 
     /// Nothing is drawn until the next level.
