@@ -168,6 +168,7 @@ impl Trial {
             target: self.target,
             load: self.load.unwrap_or_default(),
             press: self.press.unwrap_or_default(),
+            next_wires: Vec::new(),
             seed: self.seed,
         };
         setup.check_loads().map_err(misuse)?;
@@ -217,7 +218,11 @@ fn print(summary: &Summary) {
         "wire",
         format!(
             "{}, up to {} nodes, {:.0} % of them touching",
-            summary.wire,
+            if summary.failed_wires.is_empty() {
+                summary.wire.clone()
+            } else {
+                format!("{} (after {} had failed)", summary.wire, summary.failed_wires.join(", "))
+            },
             summary.max_nodes,
             100.0 * summary.max_contact_share
         ),

@@ -17,7 +17,7 @@ use lumen::trial::frame::Progress;
 use lumen::trial::log::Log;
 use lumen::trial::report::StepKind;
 use lumen::trial::session::Trial;
-use lumen::trial::setup::{Entry, Input, Press, Setup};
+use lumen::trial::setup::{Command, Entry, Input, Press, Setup};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wire::Wire;
 use lumen_test_support::is_long;
@@ -160,7 +160,7 @@ fn a_failure_names_the_fork_that_was_missed() {
     setup.wire.bend_degrees = 0.0;
     let course = Arc::new(Course::new(mesh, Some(Sample::Aorta), &mut setup).unwrap());
     let mut trial = Trial::new(course.clone(), setup).unwrap();
-    trial.replay(vec![(0, Input { feed: 50.0, roll: 0.0 })], 1250);
+    trial.replay(vec![Command { step: 0, input: Input { feed: 50.0, roll: 0.0 }, wire: 0 }], 1250);
     trial.finish();
     assert!(trial.summary().wrong_branches > 0, "{:?}", trial.summary());
     // Names as the lists of entries and targets have them.
@@ -196,14 +196,59 @@ fn a_log_that_is_none_is_refused_with_its_line() {
 fn a_log_of_an_older_version_is_read_without_the_loads_that_it_does_not_name() {
     let setup = Setup { seed: 5, target: Some([1.0, 2.0, 3.0]), ..Setup::default() };
     let mut json = serde_json::to_value(&setup).unwrap();
-    for field in ["load", "press", "proposes_wire"] {
+    for field in ["load", "press", "proposes_wire", "next_wires"] {
         assert!(json.as_object_mut().unwrap().remove(field).is_some(), "{field} of {json}");
     }
     let columns = "step,time_s,feed_mm_s,roll_rad_s,rest\n";
     let log = format!("# lumen trial log, schema 1\n# steps 7\n# setup {json}\n{columns}0,0,-0,1.5\n");
     let recorded = Log::read(log.as_bytes()).unwrap();
     assert_eq!((recorded.setup, recorded.steps), (setup, 7));
-    assert_eq!(recorded.inputs[0].1.feed.to_bits(), 0.0_f32.to_bits(), "nought has no sign");
+    assert_eq!(recorded.inputs[0].input.feed.to_bits(), 0.0_f32.to_bits(), "nought has no sign");
+}
+
+#[test]
+fn a_wire_that_fails_is_taken_out_for_the_next_and_the_log_replays_that() {
+    let mesh = &levels(Sample::Aorta, 30_000, &[900])[0];
+    let vessels = vessels(Sample::Aorta);
+    let left = vessels.iter().find(|vessel| vessel.name == "left common iliac artery").unwrap();
+    let far = left.stations[left.stations.len() - 5].position;
+    // From the one iliac artery into the other: a wire without a bend goes straight up.
+    let mut setup = Setup { target: Some(far.as_vec3().to_array()), ..setup(Sample::Aorta) };
+    setup.wire = Wire { name: "straight".to_owned(), bend_degrees: 0.0, ..setup.wire };
+    // One that is too thick for the artery is passed over.
+    let thick = Wire { name: "thick".to_owned(), diameter_mm: 9.9, ..Wire::preset("035-angled").unwrap() };
+    setup.next_wires = vec![thick, Wire::preset("035-angled").unwrap()];
+    let course = Arc::new(Course::new(mesh, Some(Sample::Aorta), &mut setup).unwrap());
+    let trial = steered(&course, &setup);
+    let summary = trial.summary();
+    assert_eq!(summary.wire, "035-angled", "{}", summary.reason);
+    assert_eq!(summary.failed_wires, ["straight"]);
+    assert!(summary.reason.ends_with("(with the wire 035-angled, after straight had failed)"), "{}", summary.reason);
+    let rows = &trial.log().rows;
+    let second = rows.iter().position(|row| row.wire > 0).unwrap();
+    // Taking it out takes the time that its length does at 30 mm/s.
+    let leaving = rows[..second].iter().rev().take_while(|row| row.input.feed == -30.0);
+    let (mut steps, mut length) = (0.0, 0.0);
+    for row in leaving {
+        (steps, length) = (steps + 1.0, row.inserted_mm);
+    }
+    assert!(length > 20.0 && steps * 10.0 * lumen::trial::STEP >= (length - 3.0) / 30.0, "{length} mm in {steps} rows");
+    assert!(rows[second].inserted_mm < 5.0 && rows[second].step == rows[second - 1].step + 10);
+    assert!(rows[second..].iter().all(|row| row.wire == 2) && summary.steps > rows[second].step);
+    let csv = trial.log().csv(summary.steps).unwrap();
+    let recorded = Log::read(csv.as_bytes()).unwrap();
+    assert_eq!(recorded.setup, setup);
+    let mut replayed = Trial::new(course, recorded.setup).unwrap();
+    replayed.replay(recorded.inputs, recorded.steps);
+    replayed.finish();
+    let [a, b] = [&trial, &replayed].map(|trial| trial.simulation().nodes().collect::<Vec<_>>());
+    assert_eq!(a, b);
+    assert_eq!(replayed.summary().failed_wires, ["straight"]);
+    // A wire that the setup does not name.
+    let of_another = |line: &str| line.strip_suffix(",2").map_or(line.to_owned(), |line| format!("{line},3"));
+    let broken: Vec<String> = csv.lines().map(of_another).collect();
+    let message = Log::read(broken.join("\n").as_bytes()).unwrap_err().to_string();
+    assert!(message.contains("its wire is none of those of the setup"), "{message}");
 }
 
 #[test]

@@ -46,7 +46,7 @@ fn fuzz(sample: Sample, wire: &str, rate: u32, steps: u64) {
     let mesh = pipeline.reduced().unwrap().mesh.clone();
     let mut setup = Setup { wire: Wire::preset(wire).unwrap(), ..Setup::default() };
     let course = Course::new(&mesh, Some(sample), &mut setup).unwrap();
-    let (mut simulation, _) = course.place(&setup).unwrap();
+    let (mut simulation, _) = course.place(&setup, &setup.wire).unwrap();
     let audit = Audit::new(&mesh);
     let radius = setup.wire.radius();
     let mut random = SplitMix64(0x2545_f491_4f6c_dd1d ^ u64::from(rate));

@@ -25,7 +25,7 @@ pub const FEED: f64 = 20.0;
 /// forks are missed.
 const AGAIN: f64 = Input::MAX_FEED as f64;
 /// Speed of withdrawal in mm/s.
-const BACK: f64 = 30.0;
+pub(super) const BACK: f64 = 30.0;
 /// Feed and withdrawal while the tip looks the wrong way, in mm/s.
 const CAREFUL: f64 = 6.0;
 /// The fastest roll in rad/s, and the roll for each radian that the tip should turn, in rad/s.
@@ -46,6 +46,8 @@ const STUCK: f64 = 1.2;
 const LOOPED: f64 = 0.5;
 /// Times that it tries again.
 const ATTEMPTS: u32 = 60;
+/// Times that it tries again at one place while there is another wire: from then on its tries would be the same again.
+const PLAN: usize = BY.len() * OFFSETS.len();
 /// Millimetres by which it is withdrawn, one attempt at a place after another.
 const BY: [f64; 3] = [6.0, 10.0, 16.0];
 /// Millimetres more at most for the tip to turn.
@@ -170,6 +172,12 @@ impl Autopilot {
         Some(Input { feed: feed as f32, roll: roll as f32 })
     }
 
+    /// Whether it has tried all it knows at a place.
+    pub(super) fn has_failed_at_a_place(&self) -> bool {
+        // The first time has a way of its own.
+        self.trouble.is_some_and(|trouble| trouble.times > PLAN + 1)
+    }
+
     fn withdraw(&mut self, route: &Route, seen: &Seen) -> Option<()> {
         if self.retractions == ATTEMPTS {
             return None;
@@ -231,5 +239,7 @@ messages! {
         "trial-doing-again" TryingAgain => "Trying again, turned",
         /// It withdraws the wire.
         "trial-doing-withdrawing" Withdrawing => "Withdrawing",
+        /// It withdraws the wire to put in another.
+        "trial-doing-exchanging" Exchanging => "Taking the wire out for another",
     }
 }

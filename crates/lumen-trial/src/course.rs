@@ -6,7 +6,7 @@ use glam::DVec3;
 use web_time::Instant;
 
 use super::placement::{PlacementError, rotation};
-use super::proposal::{proposed, reached};
+use super::proposal::{next_wires, proposed, proposed_entry, reached};
 use super::route::{PlaceName, Proposals as _, Route, RouteError, Routes as _, phantom_task};
 use super::setup::{Entry, Setup};
 use super::simulation::Simulation;
@@ -92,12 +92,18 @@ impl Course {
         let entries: Vec<_> = own.chain(found).collect();
         let entry = match setup.entry {
             Some(entry) => entry,
-            None => entries.first().ok_or(TrialError::NoEntry)?.1,
+            None => match &task {
+                Some((entry, _)) => *entry,
+                None if setup.target.is_some() => entries.first().ok_or(TrialError::NoEntry)?.1,
+                None => proposed_entry(&tree, &entries, (!setup.proposes_wire).then_some(&setup.wire))
+                    .ok_or(TrialError::NoEntry)?,
+            },
         };
         setup.entry = Some(entry);
         let from = Vec3::from(entry.at);
         let mut best = None;
-        if std::mem::take(&mut setup.proposes_wire) {
+        let proposes_wire = std::mem::take(&mut setup.proposes_wire);
+        if proposes_wire {
             (setup.wire, best) = match sample {
                 Some(sample) => (Wire::for_sample(sample), None),
                 None => proposed(&tree, from, setup.target.map(Vec3::from)),
@@ -117,6 +123,9 @@ impl Course {
         setup.target = Some(target);
         let route = tree.route(Vec3::from(entry.at), Vec3::from(target))?;
         route.clearance(setup.wire.diameter_mm)?;
+        if proposes_wire {
+            setup.next_wires = next_wires(&route, &setup.wire);
+        }
         if entry.direction == [0.0; 3] {
             let direction = route.at(0.0).direction.as_vec3().to_array();
             setup.entry = Some(Entry { direction, ..entry });
@@ -126,19 +135,19 @@ impl Course {
         Ok(Self { wall, tree, route, entries, targets, wall_ms, route_ms, fingerprint })
     }
 
-    /// The wire at its entry, varied by the seed; also the coefficients of friction.
+    /// A wire at the entry, varied by the seed; also its coefficients of friction.
     ///
     /// # Errors
     /// When it does not fit there.
-    pub fn place(&self, setup: &Setup) -> Result<(Simulation, [f64; 2]), TrialError> {
+    pub fn place(&self, setup: &Setup, wire: &Wire) -> Result<(Simulation, [f64; 2]), TrialError> {
         setup.check_loads()?;
-        let (mut simulation, friction) = self.enter(setup)?;
+        let (mut simulation, friction) = self.enter(setup, wire)?;
         simulation.set_load(DVec3::from(setup.load.map(f64::from)))?;
         Ok((simulation, friction))
     }
 
     /// The same without its load.
-    fn enter(&self, setup: &Setup) -> Result<(Simulation, [f64; 2]), TrialError> {
+    fn enter(&self, setup: &Setup, wire: &Wire) -> Result<(Simulation, [f64; 2]), TrialError> {
         let entry = setup.entry.ok_or(TrialError::NoEntry)?;
         let is_inside = |entry: &Entry| self.tree.is_inside(Vec3::from(entry.at));
         if !is_inside(&entry) {
@@ -149,7 +158,7 @@ impl Course {
         let part = |x: f64| if is_varied { x } else { 0.0 };
         let (angle, out, tilt, tilted) = (random.unit(), random.unit(), random.unit(), random.unit());
         let roll = part(std::f64::consts::TAU * random.unit());
-        let friction = setup.wire.friction.map(|mu| mu * (1.0 + part(VARIED.2 * (2.0 * random.unit() - 1.0))));
+        let friction = wire.friction.map(|mu| mu * (1.0 + part(VARIED.2 * (2.0 * random.unit() - 1.0))));
         let way = DVec3::from(entry.direction.map(f64::from)).try_normalize().ok_or(PlacementError::Direction)?;
         let across = way.any_orthonormal_vector();
         let turned = |angle: f64| rotation(way, std::f64::consts::TAU * angle) * across;
@@ -160,7 +169,7 @@ impl Course {
             let direction = rotation(turned(tilt), lean) * way;
             let at = DVec3::from(entry.at.map(f64::from)) + shift;
             let varied = Entry { at: at.as_vec3().to_array(), direction: direction.as_vec3().to_array() };
-            match Simulation::new(&setup.wire, friction, &varied, roll, Some(self.wall.clone())) {
+            match Simulation::new(wire, friction, &varied, roll, Some(self.wall.clone())) {
                 Ok(simulation) if is_inside(&varied) => return Ok((simulation, friction)),
                 Ok(_) | Err(PlacementError::Tight { .. } | PlacementError::Outside) => {
                     shift /= 2.0;
@@ -169,6 +178,6 @@ impl Course {
                 Err(error) => return Err(error.into()),
             }
         }
-        Ok((Simulation::new(&setup.wire, friction, &entry, roll, Some(self.wall.clone()))?, friction))
+        Ok((Simulation::new(wire, friction, &entry, roll, Some(self.wall.clone()))?, friction))
     }
 }

@@ -41,6 +41,8 @@ pub struct Frame {
     pub step: u64,
     /// Simulated seconds since the start.
     pub time_s: f64,
+    /// The wire that is in: see [`Setup::nth_wire`](super::setup::Setup::nth_wire).
+    pub wire: usize,
     /// The wire outside the guide, from its tip to the mouth of the guide, in mm.
     #[serde(with = "lumen_transfer::bulk")]
     pub nodes: Vec<[f32; 3]>,

@@ -9,15 +9,17 @@ use glam::DVec3;
 
 use super::STEP;
 use super::meter::SinceRow;
-use super::setup::{Input, Setup};
+use super::setup::{Command, Input, Setup};
 use lumen_message::messages;
 
 /// Version of the columns of the log and of the fields of the summary.
-pub const SCHEMA: u32 = 2;
+pub const SCHEMA: u32 = 3;
 /// The columns.
 const COLUMNS: &str = "step,time_s,feed_mm_s,roll_rad_s,inserted_mm,roll_rad,tip_x,tip_y,tip_z,tip_dx,tip_dy,tip_dz,\
 arc_mm,branch,off_route,target_mm,path_ratio,contacts,wall_force_n,max_wall_force_n,max_x,max_y,max_z,tip_force_n,\
-push_n,torque_n_mm,retractions,wrong_branches,step_ms,balanced,unsettled,braked,waited,held,wanted_mm,fed_mm,residual_n";
+push_n,torque_n_mm,retractions,wrong_branches,step_ms,balanced,unsettled,braked,waited,held,wanted_mm,fed_mm,residual_n,wire";
+/// The place of the last of them: logs before schema 3 have no such column, and one wire.
+const WIRE: usize = 37;
 
 /// The oldest schema whose input can be read.
 const OLDEST: u32 = 1;
@@ -29,6 +31,8 @@ pub struct Row {
     pub step: u64,
     /// From this step on.
     pub input: Input,
+    /// The wire that is in: see [`Setup::nth_wire`].
+    pub wire: usize,
     /// Length outside the guide in mm.
     pub inserted_mm: f64,
     /// Roll at the guide in radians.
@@ -125,6 +129,8 @@ messages! {
         "trial-log-feed" Feed => "its feed is no number",
         /// The roll is none.
         "trial-log-roll" Roll => "its roll is no number",
+        /// The wire is none of the setup's.
+        "trial-log-wire" Wire => "its wire is none of those of the setup",
         /// The step is not after that of the line before.
         "trial-log-order" Order => "its step is not after the one before",
         /// The head names other columns.
@@ -145,8 +151,8 @@ pub struct Recorded {
     pub setup: Setup,
     /// The surface's fingerprint in hexadecimal, as the summary has it.
     pub surface: String,
-    /// Input, and the step from which it is in force.
-    pub inputs: Vec<(u64, Input)>,
+    /// Input and wire, each from a step on.
+    pub inputs: Vec<Command>,
     /// Steps of it all.
     pub steps: u64,
 }
@@ -156,9 +162,9 @@ impl Log {
         Self { setup, surface, rows: Vec::new() }
     }
 
-    /// The inputs, each with its step.
-    pub fn inputs(&self) -> Vec<(u64, Input)> {
-        self.rows.iter().map(|row| (row.step, row.input)).collect()
+    /// Input and wire of each row.
+    pub fn inputs(&self) -> Vec<Command> {
+        self.rows.iter().map(|row| Command { step: row.step, input: row.input, wire: row.wire }).collect()
     }
 
     /// The log as CSV, of a trial with so many steps.
@@ -189,7 +195,7 @@ impl Log {
         if !schema.parse().is_ok_and(|schema: u32| (OLDEST..=SCHEMA).contains(&schema)) {
             return Err(LogError::Schema { found: schema.to_owned(), oldest: OLDEST, newest: SCHEMA });
         }
-        let (mut setup, mut surface, mut inputs) = (None, String::new(), Vec::<(u64, Input)>::new());
+        let (mut setup, mut surface, mut inputs) = (None::<Setup>, String::new(), Vec::<Command>::new());
         let mut steps = 0;
         let mut has_columns = false;
         for (number, line) in lines {
@@ -210,10 +216,15 @@ impl Log {
                 let feed = speed(2).ok_or(wrong(LineProblem::Feed))?;
                 let roll = speed(3).ok_or(wrong(LineProblem::Roll))?;
                 let input = Input { feed, roll };
-                if inputs.last().is_some_and(|&(last, _)| last >= step) {
+                if inputs.last().is_some_and(|last| last.step >= step) {
                     return Err(wrong(LineProblem::Order));
                 }
-                inputs.push((step, input.limited()));
+                let wire =
+                    fields.get(WIRE).map_or(Ok(0), |field| field.parse()).map_err(|_| wrong(LineProblem::Wire))?;
+                if setup.as_ref().is_some_and(|setup| setup.nth_wire(wire).is_none()) {
+                    return Err(wrong(LineProblem::Wire));
+                }
+                inputs.push(Command { step, input: input.limited(), wire });
             } else if line.starts_with("step,time_s,feed_mm_s,roll_rad_s,") {
                 has_columns = true;
             } else {
@@ -261,6 +272,7 @@ impl Row {
             fixed(self.since.wanted_mm, 4),
             fixed(self.since.fed_mm, 4),
             fixed(self.since.residual_n, 6),
+            self.wire.to_string(),
         ];
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", fields.join(","));

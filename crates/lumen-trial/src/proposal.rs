@@ -1,6 +1,7 @@
 //! What wire and target are proposed where nobody has said any.
 
-use super::route::{Proposals as _, Routes as _, Target};
+use super::route::{PlaceName, Proposals as _, Route, Routes as _, Target};
+use super::setup::Entry;
 use super::wire::Wire;
 use lumen_mesh::Vec3;
 use lumen_vessel::Tree;
@@ -12,6 +13,34 @@ const ROOM: f64 = 1.5;
 const WIDE: f64 = 2.0;
 /// Unless it comes less far than this part of where one of 0.014 in comes.
 const PART: f64 = 0.5;
+
+/// So many of the widest ends are looked at as entries.
+const ENTRIES: usize = 6;
+/// An entry is proposed if what can be reached from it lies at least this part as far as from the best of the others.
+const FAR: f64 = 0.5;
+
+/// The entry that is proposed: the widest end, unless a wire comes much farther from another. An end with nothing behind it
+/// is none: the rim of a flat cap, or a stump beside the vessel.
+pub(super) fn proposed_entry(tree: &Tree, entries: &[(PlaceName, Entry)], wire: Option<&Wire>) -> Option<Entry> {
+    let length = |entry: &Entry| {
+        let from = Vec3::from(entry.at);
+        let target = wire.map_or_else(|| proposed(tree, from, None).1, |wire| reached(tree, from, wire));
+        target.map_or(0.0, |target| target.length_mm)
+    };
+    let lengths: Vec<f64> = entries.iter().take(ENTRIES).map(|(_, entry)| length(entry)).collect();
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    let is_far = |&i: &usize| lengths[i] >= FAR * longest;
+    (0..lengths.len()).find(is_far).map(|i| entries[i].1)
+}
+
+/// The wires that go in, one after another, where one that is proposed fails: those whose tip reaches another way aside. Those
+/// for which there is no room are left out.
+pub(super) fn next_wires(route: &Route, first: &Wire) -> Vec<Wire> {
+    let is_thick = first.diameter_mm > Wire::named(Wire::USUAL).diameter_mm;
+    let names = if is_thick { [Wire::CURVE, Wire::USUAL] } else { [Wire::LONG_BEND, "workhorse-j"] };
+    let wires = names.into_iter().map(Wire::named);
+    wires.filter(|wire| route.clearance(ROOM * wire.diameter_mm).is_ok()).collect()
+}
 
 /// The best target that a wire can reach.
 pub(super) fn reached(tree: &Tree, from: Vec3, wire: &Wire) -> Option<Target> {
@@ -33,5 +62,26 @@ pub(super) fn proposed(tree: &Tree, from: Vec3, target: Option<Vec3>) -> (Wire, 
     match by_thick.filter(|target| target.usual_radius_mm >= WIDE && is_far(target)) {
         Some(target) => (thick, Some(target)),
         None => (thin, by_thin),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lumen_mesh::shapes::tube;
+
+    #[test]
+    fn an_end_with_nothing_behind_it_is_not_proposed_as_an_entry() {
+        // The wide end is a stump of 8 mm behind a waist of 0.8 mm; the thin vessel is 52 mm long.
+        let radius = |z: f32| {
+            let usual = if z < 8.0 { 3.0 } else { 1.5 };
+            usual - (usual - 0.42) * (-(z - 8.0) * (z - 8.0) / 9.0).exp()
+        };
+        let tree = Tree::new(&tube(48, 480, 60.0, radius)).unwrap();
+        let entries = tree.entries();
+        assert!(entries[0].1.at[2] < 8.0, "the widest end is listed first: {entries:?}");
+        let proposed_z = |wire| proposed_entry(&tree, &entries, Some(&Wire::named(wire))).unwrap().at[2];
+        // A wire that comes through the waist enters at the widest end; for a thicker one there is nothing behind it.
+        assert!(proposed_z(Wire::USUAL) < 8.0 && proposed_z(Wire::LONG_BEND) > 50.0);
     }
 }

@@ -42,11 +42,19 @@ pub struct Setup {
     /// What presses the wire to the wall.
     #[serde(default)]
     pub press: Press,
+    /// Wires that go in one after another, where those before have failed; see [`Trial`](super::session::Trial).
+    #[serde(default)]
+    pub next_wires: Vec<Wire>,
     /// Varies the entry by 0.5 mm and 2 degrees, the roll, and friction by 20 %. 0 varies nothing.
     pub seed: u64,
 }
 
 impl Setup {
+    /// A wire by its number: 0 for the one that goes in first, then [`Self::next_wires`].
+    pub fn nth_wire(&self, number: usize) -> Option<&Wire> {
+        number.checked_sub(1).map_or(Some(&self.wire), |i| self.next_wires.get(i))
+    }
+
     /// Checks the loads on the wire.
     ///
     /// # Errors
@@ -64,6 +72,17 @@ pub struct Input {
     pub feed: f32,
     /// Speed of the roll in rad/s, right-handed about the way in. Up to two turns a second.
     pub roll: f32,
+}
+
+/// Input, and the wire that it is for, from a step on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Command {
+    /// The first step.
+    pub step: u64,
+    /// The input.
+    pub input: Input,
+    /// The wire's number: see [`Setup::nth_wire`].
+    pub wire: usize,
 }
 
 impl Input {

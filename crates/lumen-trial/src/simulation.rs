@@ -307,6 +307,16 @@ impl Simulation {
         self.roll
     }
 
+    /// Whether it is back in its guide, as it was at the start.
+    pub(super) fn is_back(&self) -> bool {
+        self.inserted <= f64::midpoint(self.grid[FIRST], self.grid[FIRST + 1])
+    }
+
+    /// Counts its steps on from so many.
+    pub(super) fn count_from(&mut self, steps: u64) {
+        self.steps = steps;
+    }
+
     /// Steps so far.
     pub fn steps(&self) -> u64 {
         self.steps

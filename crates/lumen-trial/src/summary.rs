@@ -43,8 +43,10 @@ pub struct Summary {
     pub triangles: usize,
     /// A number that differs where surfaces do, in hexadecimal.
     pub surface: String,
-    /// The wire's name.
+    /// The wire's name: of the last one that was in, where others went in before it.
     pub wire: String,
+    /// The names of the wires that failed before it, in turn.
+    pub failed_wires: Vec<String>,
     /// Where it entered, before the seed varies that.
     pub entry: Option<Entry>,
     /// Where it should go, in mm.
@@ -147,6 +149,15 @@ messages! {
             let times = if *count == 1 { "1 retraction".to_owned() } else { format!("{} retractions", grouped(count)) };
             format!("the autopilot gave up after {times} with the tip {away:.1} mm from the target")
         },
+        /// Other wires were tried before.
+        "trial-end-exchanged" Exchanged {
+            /// How it ended.
+            why: Box<TrialEnd>,
+            /// The name of the wire that it ended with.
+            wire: String,
+            /// Those that failed before it, with commas between.
+            failed: String,
+        } => "{why} (with the wire {wire}, after {failed} had failed)",
         /// It failed for a fork that was missed.
         "trial-end-missed" Missed {
             /// How it ended.
@@ -172,10 +183,15 @@ impl Trial {
             Progress::Over => TrialEnd::Over { away },
             Progress::GaveUp => TrialEnd::GaveUp { count: self.meter().retractions, away },
         };
-        match self.missed_fork().filter(|_| self.has_failed()) {
+        let why = match self.missed_fork().filter(|_| self.has_failed()) {
             Some(missed) => TrialEnd::Missed { why: Box::new(why), missed },
             None => why,
+        };
+        let failed = self.failed_wires();
+        if failed.is_empty() {
+            return why;
         }
+        TrialEnd::Exchanged { why: Box::new(why), wire: self.wire().name.clone(), failed: failed.join(", ") }
     }
 
     /// What came of it, up to now.
@@ -202,7 +218,8 @@ impl Trial {
             route_build_ms: course.route_ms,
             triangles: course.wall.mesh().triangles.len(),
             surface: format!("{:016x}", course.fingerprint),
-            wire: self.setup().wire.name.clone(),
+            wire: self.wire().name.clone(),
+            failed_wires: self.failed_wires().into_iter().map(str::to_owned).collect(),
             entry: self.setup().entry,
             target: self.setup().target,
             load_n_per_mm: self.setup().load,

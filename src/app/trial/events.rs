@@ -1,6 +1,6 @@
 //! How a trial changes by what the engine says.
 
-use super::state::{Coming, Comparing, Problem, Run, Session, Stage, Trial};
+use super::state::{Coming, Comparing, Open, Problem, Run, Session, Stage, Trial};
 use crate::app::platform::Offer;
 use crate::engine::trial::{TrialCommand, TrialEvent, TrialLink, TrialReady};
 use crate::mesh::{Bounds, Vec3};
@@ -29,6 +29,7 @@ impl Trial {
                         session.at_entry = Some((*frame).clone());
                     }
                     session.run.show(*frame);
+                    self.show_wire();
                 }
             }
             TrialEvent::Felt { id, touches } => {
@@ -79,6 +80,16 @@ impl Trial {
     /// The run whose comparison has this number.
     fn run_comparing(&mut self, id: u64) -> Option<&mut Run> {
         self.session_mut().map(|session| &mut session.run).filter(|run| run.is_comparing(id))
+    }
+
+    /// Shows the numbers of the wire that is in, where it was proposed: after another has failed it is not the first.
+    fn show_wire(&mut self) {
+        let Some(Open { stage: Stage::Association(session), sent, .. }) = self.open.as_deref_mut() else { return };
+        for setup in [Some(&mut self.setup), sent.as_mut()].into_iter().flatten() {
+            if setup.proposes_wire && setup.wire != *session.wire() {
+                setup.wire.clone_from(session.wire());
+            }
+        }
     }
 
     fn receive_ready(&mut self, ready: TrialReady, link: &mut TrialLink) {

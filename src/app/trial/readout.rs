@@ -2,6 +2,7 @@
 
 use egui::{Align2, CollapsingHeader, Color32, FontId, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use super::setup::words;
 use super::state::{Run, Trial};
 use crate::app::row::number;
 use crate::language::{decimal, grouped, inner, tell};
@@ -20,7 +21,10 @@ const END: f32 = 40.0;
 pub(super) fn sentence(run: &Run, frame: &Frame) -> (String, bool) {
     if let Some(summary) = &run.summary {
         let time = decimal(summary.time_s, 1);
-        let text = if summary.success {
+        let text = if summary.success && !summary.failed_wires.is_empty() {
+            let failed: Vec<String> = summary.failed_wires.iter().map(|wire| words(wire)).collect();
+            say!("trial-success-exchanged", time = time, wire = words(&summary.wire), failed = failed.join(", "))
+        } else if summary.success {
             say!("trial-success", time = time, force = force(summary.max_wall_force_n))
         } else {
             say!("trial-failed", time = time, why = run.end.as_ref().map_or_else(String::new, |end| tell(end)))

@@ -36,6 +36,7 @@ pub(super) fn wire(ui: &mut Ui, setup: &mut Setup, proposed: Option<&Wire>) {
     });
     if chosen != before {
         setup.proposes_wire = chosen.is_none();
+        setup.next_wires.clear();
         let preset = chosen.as_deref().and_then(Wire::preset);
         setup.wire = preset.or_else(|| proposed.cloned()).unwrap_or_default();
     }
@@ -50,7 +51,7 @@ pub(super) fn wire(ui: &mut Ui, setup: &mut Setup, proposed: Option<&Wire>) {
 }
 
 /// A preset's name in words.
-fn words(preset: &str) -> String {
+pub(super) fn words(preset: &str) -> String {
     match preset {
         "floppy" => say!("trial-wire-floppy"),
         "workhorse" => say!("trial-wire-workhorse"),
@@ -58,6 +59,7 @@ fn words(preset: &str) -> String {
         "workhorse-j" => say!("trial-wire-workhorse-j"),
         "035-j" => say!("trial-wire-035-j"),
         "035-stiff-j" => say!("trial-wire-035-stiff-j"),
+        "035-curve" => say!("trial-wire-035-curve"),
         "035-angled" => say!("trial-wire-035-angled"),
         other => other.to_owned(),
     }

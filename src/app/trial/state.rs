@@ -318,7 +318,7 @@ impl Trial {
     /// The wire that is proposed for the way that is shown, where one was.
     pub(super) fn proposed_wire(&self) -> Option<&Wire> {
         let is_proposed = self.is_on() && self.sent().is_some_and(|sent| sent.proposes_wire);
-        self.setup_in_force().filter(|_| is_proposed).map(|setup| &setup.wire)
+        self.session().filter(|_| is_proposed).map(Session::wire)
     }
 
     /// The smoothing that is offered in place of `smoothing`, where the lumen is too thin for the wire.
@@ -386,6 +386,12 @@ impl Preparing {
 }
 
 impl Session {
+    /// The wire that is in.
+    pub(super) fn wire(&self) -> &Wire {
+        let setup = &self.ready.setup;
+        self.run.frame.as_ref().and_then(|frame| setup.nth_wire(frame.wire)).unwrap_or(&setup.wire)
+    }
+
     /// Along the way where it passes; else towards the target.
     pub(super) fn direction_at(&self, at: Vec3) -> Option<Vec3> {
         let points = &self.ready.route.points;

@@ -46,6 +46,7 @@ trial-cancelled = Abgebrochen.
 ## How the trial stands, in one sentence
 
 trial-success = Erfolg: Die Spitze kam nach { $time } s an; größte Wandkraft { $force }.
+trial-success-exchanged = Erfolg: Die Spitze kam nach { $time } s mit dem Draht { $wire } an, nachdem { $failed } gescheitert war; größte Wandkraft { $force }.
 trial-failed = Gescheitert nach { $time } s: { $why }
 trial-arrived = Erfolg: Die Spitze ist am Ziel.
 trial-timed-out = Gescheitert: Die Zeit ist um.
@@ -59,6 +60,7 @@ trial-steers = Autopilot: { $doing }.
 trial-doing-following = folgt der Route
 trial-doing-again = versucht es gedreht erneut
 trial-doing-withdrawing = zieht zurück
+trial-doing-exchanging = zieht den Draht heraus, um einen anderen zu nehmen
 trial-feed-first = Den Draht zum Ziel vorschieben (W, S) und drehen (A, D) oder den Autopiloten steuern lassen: Von da an läuft die Zeit.
 trial-feed = Den Draht zum Ziel vorschieben (W, S) und drehen (A, D) oder den Autopiloten steuern lassen.
 
@@ -112,6 +114,7 @@ trial-wire-stiff = 0,014" steif
 trial-wire-workhorse-j = 0,014" J-Spitze
 trial-wire-035-j = 0,035" J-Spitze
 trial-wire-035-stiff-j = 0,035" steif, J
+trial-wire-035-curve = 0,035" mit Katheterkurve
 trial-wire-035-angled = 0,035" gewinkelt, lange Biegung
 trial-wire-numbers = Spitze, Steifigkeit, Reibung
 trial-tip-angle = Spitzenwinkel
@@ -291,6 +294,7 @@ trial-end-gave-up = { $count ->
     [one] der Autopilot gab nach { $count } Rückzug auf, die Spitze noch { $away } mm vom Ziel entfernt
    *[other] der Autopilot gab nach { $count } Rückzügen auf, die Spitze noch { $away } mm vom Ziel entfernt
 }
+trial-end-exchanged = { $why } (mit dem Draht { $wire }; zuvor gescheitert: { $failed })
 trial-end-missed = { $why }; { $missed }
 trial-missed-fork = er verfehlte die Gabelung nach { $along } mm der Route und nahm { $into } statt { $instead }
 trial-missed-route = er verfehlte die Gabelung nach { $along } mm der Route und nahm { $into }, statt der Route zu folgen
@@ -338,5 +342,6 @@ trial-log-steps = die Anzahl der Schritte ist keine Zahl
 trial-log-step = der Schritt ist keine Zahl
 trial-log-feed = der Vorschub ist keine Zahl
 trial-log-roll = die Drehung ist keine Zahl
+trial-log-wire = der Draht ist keiner von denen des Aufbaus
 trial-log-order = der Schritt liegt nicht nach dem vorigen
 trial-log-columns = die Spalten sind nicht die eines Protokolls

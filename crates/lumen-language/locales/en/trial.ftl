@@ -48,6 +48,7 @@ trial-cancelled = Cancelled.
 ## How the trial stands, in one sentence
 
 trial-success = Success: the tip arrived after { $time } s; largest wall force { $force }.
+trial-success-exchanged = Success: the tip arrived after { $time } s with the wire { $wire }, after { $failed } had failed; largest wall force { $force }.
 # Why is one of trial-end-...
 trial-failed = Failed after { $time } s: { $why }
 trial-arrived = Success: the tip is at the target.
@@ -119,6 +120,7 @@ trial-wire-stiff = 0.014 in stiff
 trial-wire-workhorse-j = 0.014 in J tip
 trial-wire-035-j = 0.035 in J tip
 trial-wire-035-stiff-j = 0.035 in stiff J
+trial-wire-035-curve = 0.035 in, catheter's curve
 trial-wire-035-angled = 0.035 in angled, long bend
 # The head of a fold.
 trial-wire-numbers = Tip, stiffness, friction

@@ -46,6 +46,7 @@ trial-cancelled = Annulé.
 ## How the trial stands, in one sentence
 
 trial-success = Succès : la pointe est arrivée après { $time } s ; force maximale sur la paroi { $force }.
+trial-success-exchanged = Succès : la pointe est arrivée après { $time } s avec le guide { $wire }, après l'échec de { $failed } ; force maximale sur la paroi { $force }.
 trial-failed = Échec après { $time } s : { $why }
 trial-arrived = Succès : la pointe est à la cible.
 trial-timed-out = Échec : le temps est écoulé.
@@ -59,6 +60,7 @@ trial-steers = Autopilote : { $doing }.
 trial-doing-following = suit le trajet
 trial-doing-again = nouvel essai, tourné
 trial-doing-withdrawing = retrait
+trial-doing-exchanging = retrait du guide pour en prendre un autre
 trial-feed-first = Avancer (W, S) et tourner (A, D) le guide jusqu'à la cible, ou laisser faire l'autopilote : le temps court à partir de là.
 trial-feed = Avancer (W, S) et tourner (A, D) le guide jusqu'à la cible, ou laisser faire l'autopilote.
 
@@ -112,6 +114,7 @@ trial-wire-stiff = 0,014" rigide
 trial-wire-workhorse-j = 0,014" pointe en J
 trial-wire-035-j = 0,035" pointe en J
 trial-wire-035-stiff-j = 0,035" rigide, en J
+trial-wire-035-curve = 0,035" à courbe de cathéter
 trial-wire-035-angled = 0,035" coudé, longue courbure
 trial-wire-numbers = Pointe, rigidité, frottement
 trial-tip-angle = Angle pointe
@@ -291,6 +294,7 @@ trial-end-gave-up = { $count ->
     [one] l'autopilote a renoncé après { $count } retrait, la pointe encore à { $away } mm de la cible
    *[other] l'autopilote a renoncé après { $count } retraits, la pointe encore à { $away } mm de la cible
 }
+trial-end-exchanged = { $why } (avec le guide { $wire } ; échec auparavant de { $failed })
 trial-end-missed = { $why } ; { $missed }
 trial-missed-fork = il a manqué la bifurcation à { $along } mm sur le trajet : { $into } au lieu de { $instead }
 trial-missed-route = il a manqué la bifurcation à { $along } mm sur le trajet : { $into } au lieu de la suite du trajet
@@ -338,5 +342,6 @@ trial-log-steps = le nombre de pas n'est pas un nombre
 trial-log-step = le pas n'est pas un nombre
 trial-log-feed = l'avance n'est pas un nombre
 trial-log-roll = la rotation n'est pas un nombre
+trial-log-wire = le guide n'est aucun de ceux du montage
 trial-log-order = le pas n'est pas après le précédent
 trial-log-columns = les colonnes ne sont pas celles d'un journal

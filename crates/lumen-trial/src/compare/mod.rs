@@ -160,7 +160,7 @@ impl TrialComparison {
         };
         let widths: Vec<[f64; 2]> =
             route.points.iter().map(|p| [clear(reduced, p.at), clear(original, p.at)]).collect();
-        let wire = reduced.setup().wire.radius();
+        let wire = reduced.wire().radius();
         let is_pinched = |width: &[f64; 2]| width[0] < f64::from(PINCHED) * width[1] || width[0] < wire;
         let pinched = route.points.iter().zip(&widths).filter(|(_, width)| is_pinched(width));
         let least = |which: usize| 2.0 * widths.iter().map(|width| width[which]).fold(f64::INFINITY, f64::min);

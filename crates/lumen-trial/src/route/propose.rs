@@ -12,6 +12,9 @@ const INSIDE: f64 = 1.0;
 /// And this far, in mm, unless the branch is too short.
 const INSIDE_MM: f64 = 3.0;
 
+/// The nearest target in mm: within 2 mm of one a wire has arrived before it moves.
+const NEAREST: f64 = 5.0;
+
 /// An end with less than this part of the widest end's radius is proposed last: in a noisy scan it is no vessel.
 const THREAD: f64 = 0.03;
 
@@ -103,7 +106,7 @@ impl Proposals for Tree {
             let is_whole = room == way.len();
             let (at, radius) =
                 if is_whole { (end, tip.radius) } else { (ball(there).centre, ball(there).radius.into()) };
-            if from.distance(at) <= 2.0 * radius as f32 {
+            if f64::from(from.distance(at)) <= NEAREST.max(2.0 * radius) {
                 continue;
             }
             let end = match tip.end {

@@ -8,7 +8,7 @@ use glam::DVec3;
 use web_time::Instant;
 
 use super::STEP;
-use super::autopilot::{Autopilot, DECISION, FEED, Seen};
+use super::autopilot::{Autopilot, AutopilotTask, BACK as WITHDRAWAL, DECISION, FEED, Seen};
 use super::course::{Course, TrialError};
 use super::frame::{Progress, Touch};
 use super::log::Log;
@@ -17,9 +17,10 @@ use super::missed::{MissedFork, MissedForkText};
 use super::peak_force_map::PeakForceMap;
 use super::press::outward;
 use super::report::StepKind;
-use super::setup::{Input, Setup};
+use super::setup::{Command, Input, Setup};
 use super::simulation::Simulation;
 use super::stopwatch::Stopwatch;
+use super::wire::Wire;
 use lumen_pipeline::task::milliseconds;
 use lumen_vessel::Located;
 
@@ -38,7 +39,15 @@ const BACK: f64 = -0.3;
 #[derive(Clone, Debug)]
 struct State {
     simulation: Simulation,
+    /// Its wire: see [`Setup::nth_wire`].
+    wire: usize,
+    /// Static and kinetic friction, varied by the seed.
+    friction: [f64; 2],
     autopilot: Autopilot,
+    /// The wires that failed before it, in turn.
+    failed: Vec<usize>,
+    /// Times that the wires before this one were withdrawn.
+    retractions: u32,
     input: Input,
     located: Option<Located>,
     arc: f64,
@@ -48,19 +57,23 @@ struct State {
     is_looped: bool,
     progress: Progress,
     meter: Meter,
-    /// Steps that the autopilot has steered.
+    /// Steps that the autopilot has steered this wire; those in which it takes it out do not count.
     steered: u64,
+    /// While it takes it out for another: how many steps it has done so.
+    leaving: Option<u64>,
     /// What the wall has felt, by every balanced step up to here.
     felt: PeakForceMap,
     rows: usize,
 }
 
 /// A trial.
+///
+/// Where the autopilot has tried all it knows at a place, or its time is over, and the setup has another wire, it takes the
+/// wire out and goes on with that one from the entry. The steps that this takes are steps of the trial.
 #[derive(Debug)]
 pub struct Trial {
     course: Arc<Course>,
     setup: Setup,
-    friction: [f64; 2],
     state: State,
     marks: Vec<State>,
     /// How long steps took: kept once, and not with each mark, as it grows with every step.
@@ -70,7 +83,7 @@ pub struct Trial {
     /// What the operator does from the next row of the log on.
     wanted: Input,
     /// Input to be replayed: from which step on, and what; and the steps of it all.
-    replay: Option<(Vec<(u64, Input)>, u64)>,
+    replay: Option<(Vec<Command>, u64)>,
     limit_s: f64,
 }
 
@@ -80,11 +93,15 @@ impl Trial {
     /// # Errors
     /// When it does not fit there.
     pub fn new(course: Arc<Course>, setup: Setup) -> Result<Self, TrialError> {
-        let (simulation, friction) = course.place(&setup)?;
+        let (simulation, friction) = course.place(&setup, &setup.wire)?;
         let limit_s = 3.0 * course.route.length_mm / FEED + 30.0;
         let state = State {
             simulation,
+            wire: 0,
+            friction,
             autopilot: Autopilot::default(),
+            failed: Vec::new(),
+            retractions: 0,
             input: Input::default(),
             located: None,
             arc: 0.0,
@@ -94,6 +111,7 @@ impl Trial {
             progress: Progress::Running,
             meter: Meter::new(&course.route),
             steered: 0,
+            leaving: None,
             felt: PeakForceMap::default(),
             rows: 0,
         };
@@ -101,7 +119,6 @@ impl Trial {
         let mut trial = Self {
             course,
             setup,
-            friction,
             state,
             marks: Vec::new(),
             stopwatch: Stopwatch::default(),
@@ -117,7 +134,7 @@ impl Trial {
     }
 
     /// Plays this input, from the start, in place of any other, for so many steps.
-    pub fn replay(&mut self, inputs: Vec<(u64, Input)>, steps: u64) {
+    pub fn replay(&mut self, inputs: Vec<Command>, steps: u64) {
         self.replay = Some((inputs, steps));
     }
 
@@ -136,9 +153,19 @@ impl Trial {
         &self.setup
     }
 
+    /// The wire that is in.
+    pub fn wire(&self) -> &Wire {
+        self.setup.nth_wire(self.state.wire).unwrap_or(&self.setup.wire)
+    }
+
+    /// The names of the wires that were in before it, in turn.
+    pub fn failed_wires(&self) -> Vec<&str> {
+        self.state.failed.iter().filter_map(|&i| Some(self.setup.nth_wire(i)?.name.as_str())).collect()
+    }
+
     /// Static and kinetic friction, varied by the seed.
     pub fn friction(&self) -> [f64; 2] {
-        self.friction
+        self.state.friction
     }
 
     /// The wire.
@@ -166,7 +193,7 @@ impl Trial {
         self.state.progress
     }
 
-    /// Simulated seconds after which the autopilot has lost; a hand, or a log, takes the time that it takes.
+    /// Simulated seconds after which the autopilot has lost with a wire; a hand, or a log, takes the time that it takes.
     pub fn limit_s(&self) -> f64 {
         self.limit_s
     }
@@ -203,7 +230,9 @@ impl Trial {
         if report.kind == StepKind::Balanced {
             state.felt.take(touches(&state.simulation));
         }
-        state.steered += u64::from(self.is_steered);
+        if self.is_steered {
+            *state.leaving.as_mut().unwrap_or(&mut state.steered) += 1;
+        }
         let steps = self.state.simulation.steps();
         if steps.is_multiple_of(ROW_STEPS) {
             self.look();
@@ -262,21 +291,74 @@ impl Trial {
     /// The input of the next row.
     fn decide(&mut self, steps: u64) {
         if let Some((inputs, _)) = &self.replay {
-            let known = inputs.partition_point(|&(from, _)| from <= steps);
-            self.state.input = known.checked_sub(1).map_or(Input::default(), |i| inputs[i].1);
-        } else if self.is_steered {
-            let seen = self.seen();
-            match self.state.autopilot.decide(&self.course.route, &seen) {
-                Some(input) => self.state.input = input.limited(),
-                None => self.state.progress = Progress::GaveUp,
+            let known = inputs.partition_point(|command| command.step <= steps);
+            let command = known.checked_sub(1).map(|i| inputs[i]);
+            if let Some(wire) = command.map(|command| command.wire).filter(|&wire| wire != self.state.wire)
+                && !self.exchange(wire)
+            {
+                self.state.progress = Progress::Over;
             }
-            self.state.meter.retractions = self.state.autopilot.retractions;
+            self.state.input = command.map_or(Input::default(), |command| command.input);
+        } else if self.is_steered {
+            self.steer();
         } else {
             self.state.input = self.wanted;
         }
         let row = self.row();
         self.log.rows.push(row);
         self.state.meter.since_row = SinceRow::default();
+    }
+
+    /// What the autopilot does until the next row.
+    fn steer(&mut self) {
+        self.state.input = Input::default();
+        let next = self.state.wire + 1;
+        if let Some(steps) = self.state.leaving {
+            if self.state.simulation.is_back() {
+                // One that is too thick for the entry is passed over.
+                if !(next..=self.setup.next_wires.len()).any(|wire| self.exchange(wire)) {
+                    self.state.progress = Progress::GaveUp;
+                }
+            } else if steps as f64 * STEP > self.limit_s {
+                self.state.progress = Progress::TimedOut;
+            } else {
+                self.state.input.feed = -WITHDRAWAL as f32;
+            }
+            return;
+        }
+        let seen = self.seen();
+        let input = self.state.autopilot.decide(&self.course.route, &seen);
+        self.state.meter.retractions = self.state.retractions + self.state.autopilot.retractions;
+        let has_next = next <= self.setup.next_wires.len();
+        let is_late = self.state.steered as f64 * STEP > self.limit_s;
+        match input {
+            _ if has_next && (is_late || input.is_none() || self.state.autopilot.has_failed_at_a_place()) => {
+                self.state.leaving = Some(0);
+            }
+            _ if is_late => self.state.progress = Progress::TimedOut,
+            Some(input) => self.state.input = input.limited(),
+            None => self.state.progress = Progress::GaveUp,
+        }
+    }
+
+    /// What the autopilot is doing.
+    fn task(&self) -> AutopilotTask {
+        if self.state.leaving.is_some() { AutopilotTask::Exchanging } else { self.state.autopilot.task() }
+    }
+
+    /// Takes out the wire that is in, and puts another at the entry. Says whether it fits there; if not, nothing changes.
+    fn exchange(&mut self, wire: usize) -> bool {
+        let placed = self.setup.nth_wire(wire).map(|next| self.course.place(&self.setup, next));
+        let Some(Ok((mut simulation, friction))) = placed else { return false };
+        let state = &mut self.state;
+        simulation.count_from(state.simulation.steps());
+        state.failed.push(state.wire);
+        state.retractions = state.meter.retractions;
+        (state.simulation, state.friction, state.wire) = (simulation, friction, wire);
+        (state.autopilot, state.steered, state.leaving) = (Autopilot::default(), 0, None);
+        (state.located, state.missed, state.is_off, state.is_looped) = (None, None, false, false);
+        self.look();
+        true
     }
 
     fn seen(&self) -> Seen {
@@ -296,7 +378,7 @@ impl Trial {
 
     /// The direction of the shaft behind the bend of the tip.
     fn shaft(&self) -> DVec3 {
-        let (rod, wire) = (&self.state.simulation.body().rod, &self.setup.wire);
+        let (rod, wire) = (&self.state.simulation.body().rod, self.wire());
         let behind = wire.bend_mm + 2.0 * wire.elements_mm[0];
         let grid = self.state.simulation.grid();
         let edge = grid.partition_point(|&at| at < behind).min(self.state.simulation.count());
@@ -306,7 +388,7 @@ impl Trial {
     /// Direction of the tip, and the side to which it is bent, as the frame behind the bend has it.
     fn tip_side(&self) -> [DVec3; 2] {
         let simulation = &self.state.simulation;
-        let wire = &self.setup.wire;
+        let wire = self.wire();
         let grid = simulation.grid();
         let edge = grid.partition_point(|&at| at < wire.bend_mm).min(simulation.count());
         [simulation.tip_direction(), simulation.body().rod.director(edge)]
@@ -337,8 +419,6 @@ impl Trial {
         if state.progress == Progress::Running {
             if !state.is_off && route.distance_to_target(tip) <= ARRIVED {
                 state.progress = Progress::Arrived;
-            } else if state.steered as f64 * STEP > self.limit_s {
-                state.progress = Progress::TimedOut;
             }
         }
     }

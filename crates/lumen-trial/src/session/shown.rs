@@ -16,6 +16,7 @@ impl Trial {
         Row {
             step: simulation.steps(),
             input: state.input,
+            wire: state.wire,
             inserted_mm: simulation.inserted(),
             roll: simulation.roll(),
             tip: simulation.tip(),
@@ -49,6 +50,7 @@ impl Trial {
         Frame {
             step: simulation.steps(),
             time_s: simulation.steps() as f64 * STEP,
+            wire: state.wire,
             nodes: simulation.nodes().map(plain).collect(),
             report: simulation.report(),
             step_kinds: state.meter.counts,
@@ -69,7 +71,7 @@ impl Trial {
             is_wrong_branch: state.is_off,
             is_looped: state.is_looped,
             progress: state.progress,
-            doing: self.is_steered.then(|| state.autopilot.task()),
+            doing: self.is_steered.then(|| self.task()),
             steps_per_second: 0.0,
             is_behind: false,
         }

@@ -6,7 +6,7 @@ use crate::app::trial::state::Session;
 
 /// The wire's radius in mm.
 pub(super) fn radius(session: &Session) -> f32 {
-    session.ready.setup.wire.radius() as f32
+    session.wire().radius() as f32
 }
 
 /// A picture that was drawn.

@@ -5,8 +5,10 @@ use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::engine::trial::{TrialCommand, TrialEvent};
 use lumen::phantom::Sample;
+use lumen::trial::autopilot::AutopilotTask;
 use lumen::trial::frame::Frame;
 use lumen::trial::setup::Setup;
+use lumen::trial::summary::{Summary, TrialEnd};
 use lumen::trial::wire::Wire;
 use lumen_ui_tests::told::{
     App, DESKTOP, FIRST, as_the_paper, asked, choose, frame, id_of_start, now, on, press, put_on, ready, refused,
@@ -74,6 +76,42 @@ fn the_wire_is_proposed_and_named_until_another_is_chosen() {
     let commands = asked(&memory);
     let Some(TrialCommand::Start { setup, .. }) = commands.first() else { panic!("{commands:?}") };
     assert!(setup.wire.name == "floppy" && !setup.proposes_wire);
+}
+
+#[test]
+fn the_wire_that_went_in_for_one_that_failed_is_named() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    start(&mut harness);
+    let id = id_of_start(&asked(&memory));
+    let TrialEvent::Ready(mut ready) = ready(id) else { panic!("it is ready") };
+    ready.setup.wire = Wire::preset("workhorse").unwrap();
+    ready.setup.next_wires = vec![Wire::preset("035-j").unwrap()];
+    let value = |harness: &App| {
+        let list = harness.get_by_role_and_label(Role::ComboBox, "Wire");
+        list.accesskit_node().value().unwrap_or_default()
+    };
+    tell(&mut harness, &memory, [TrialEvent::Ready(ready), now(id, frame())]);
+    assert_eq!(value(&harness), "0.014 in workhorse");
+    let doing = Some(AutopilotTask::Exchanging);
+    tell(&mut harness, &memory, [now(id, Frame { doing, ..frame() })]);
+    assert!(says(&harness, "taking the wire out for another"));
+    tell(&mut harness, &memory, [now(id, Frame { wire: 1, ..frame() })]);
+    assert!(value(&harness) == "0.035 in J tip" && !says(&harness, "Restart to try"));
+    let summary = Box::new(Summary {
+        success: true,
+        time_s: 61.2,
+        wire: "035-j".to_owned(),
+        failed_wires: vec!["workhorse".to_owned()],
+        ..Summary::default()
+    });
+    let end = TrialEnd::Arrived { time: 61.2 }.told();
+    tell(&mut harness, &memory, [TrialEvent::Ended { id, summary, end }]);
+    assert!(says(&harness, "after 61.2 s with the wire 0.035 in J tip, after 0.014 in workhorse had failed"));
+    // The next beginning proposes anew.
+    press(&mut harness, "Restart");
+    let commands = asked(&memory);
+    assert!(matches!(commands.first(), Some(TrialCommand::Restart { .. })), "{commands:?}");
 }
 
 #[test]
