@@ -23,7 +23,13 @@ pub(super) fn sentence(run: &Run, frame: &Frame) -> (String, bool) {
         let time = decimal(summary.time_s, 1);
         let text = if summary.success && !summary.failed_wires.is_empty() {
             let failed: Vec<String> = summary.failed_wires.iter().map(|wire| words(wire)).collect();
-            say!("trial-success-exchanged", time = time, wire = words(&summary.wire), failed = failed.join(", "))
+            say!(
+                "trial-success-exchanged",
+                time = time,
+                wire = words(&summary.wire),
+                failed = failed.join(", "),
+                force = force(summary.max_wall_force_n)
+            )
         } else if summary.success {
             say!("trial-success", time = time, force = force(summary.max_wall_force_n))
         } else {

@@ -8,11 +8,11 @@ use lumen::phantom::Sample;
 use lumen::trial::autopilot::AutopilotTask;
 use lumen::trial::frame::Frame;
 use lumen::trial::setup::Setup;
-use lumen::trial::summary::{Summary, TrialEnd};
+use lumen::trial::summary::Summary;
 use lumen::trial::wire::Wire;
 use lumen_ui_tests::told::{
-    App, DESKTOP, FIRST, as_the_paper, asked, choose, frame, id_of_start, now, on, press, put_on, ready, refused,
-    retarget, says, start, tell,
+    App, DESKTOP, FIRST, as_the_paper, asked, choose, ended, frame, id_of_start, now, on, press, put_on, ready,
+    refused, retarget, says, start, tell,
 };
 use lumen_ui_tests::{app, app_in_full, open, settle, settle_wholly, tube};
 
@@ -98,15 +98,14 @@ fn the_wire_that_went_in_for_one_that_failed_is_named() {
     assert!(says(&harness, "taking the wire out for another"));
     tell(&mut harness, &memory, [now(id, Frame { wire: 1, ..frame() })]);
     assert!(value(&harness) == "0.035 in J tip" && !says(&harness, "Restart to try"));
-    let summary = Box::new(Summary {
+    let summary = Summary {
         success: true,
         time_s: 61.2,
         wire: "035-j".to_owned(),
         failed_wires: vec!["workhorse".to_owned()],
         ..Summary::default()
-    });
-    let end = TrialEnd::Arrived { time: 61.2 }.told();
-    tell(&mut harness, &memory, [TrialEvent::Ended { id, summary, end }]);
+    };
+    tell(&mut harness, &memory, [ended(id, summary)]);
     assert!(says(&harness, "after 61.2 s with the wire 0.035 in J tip, after 0.014 in workhorse had failed"));
     // The next beginning proposes anew.
     press(&mut harness, "Restart");
