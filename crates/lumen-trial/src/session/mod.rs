@@ -416,10 +416,9 @@ impl Trial {
         state.meter.wrong_branches += u32::from(state.is_off && !was_off);
         state.meter.loops += u32::from(state.is_looped && !was_looped);
         state.meter.looked(&state.simulation, state.arc);
-        if state.progress == Progress::Running {
-            if !state.is_off && route.distance_to_target(tip) <= ARRIVED {
-                state.progress = Progress::Arrived;
-            }
+        let is_there = !state.is_off && route.distance_to_target(tip) <= ARRIVED;
+        if state.progress == Progress::Running && is_there {
+            state.progress = Progress::Arrived;
         }
     }
 
