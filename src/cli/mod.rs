@@ -39,6 +39,7 @@ mod settings;
 mod sheet;
 mod source;
 mod surface;
+mod sweep;
 mod tables;
 mod trial;
 mod trial_tables;
@@ -91,6 +92,8 @@ pub enum Command {
     Report(report::WriteReport),
     /// Write the surface in a scan or a mask
     Surface(surface::Surface),
+    /// Show what reduction does to a guidewire: trials at many rates beside the unreduced surface
+    Sweep(sweep::Sweep),
     /// Make Tables I and II of the paper for a surface, or III and IV, the paper's numbers beside them
     Tables(tables::Tables),
     /// Steer a guidewire through a surface by autopilot
@@ -110,6 +113,7 @@ impl Command {
             Self::Phantom(command) => command.run(),
             Self::Report(command) => command.run(),
             Self::Surface(command) => command.run(),
+            Self::Sweep(command) => command.run(),
             Self::Tables(command) => command.run(),
             Self::Trial(command) => command.run(),
         };

@@ -130,10 +130,32 @@ fn table(page: &mut String, head: &str, table: &Table) {
     *page += "</tbody></table></div>\n";
 }
 
+/// A plot as a file of its own, in the colours of paper, with its title and what it is not for.
+#[cfg(not(target_arch = "wasm32"))]
+pub fn svg_file(plot: &Plot) -> String {
+    let (high, title, notice) = (plot.height(), escaped(&plot.title), escaped(&say!("report-not-clinical")));
+    let mut file = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 -24 {WIDE} {}\" font-size=\"{LETTERS}\">\
+         <style>svg{{--ink:#1d252c;--weak:#5c6770;--line:#d5dbe0;--accent:#0b6e8a;font-family:sans-serif}}</style>\
+         <title>{title}</title><rect y=\"-24\" width=\"100%\" height=\"100%\" fill=\"#fff\"/>\
+         <text x=\"2\" y=\"-8\" font-weight=\"600\">{title}</text>\
+         <text x=\"2\" y=\"{}\" style=\"fill:var(--weak)\">{notice}</text>",
+        high + 44.0,
+        high + 12.0,
+    );
+    marks(&mut file, plot);
+    file + "</svg>\n"
+}
+
 fn svg(page: &mut String, plot: &Plot) {
     let (high, title) = (plot.height(), escaped(&plot.title));
     let _ =
         write!(page, "<svg viewBox=\"0 0 {WIDE} {high}\" font-size=\"{LETTERS}\" role=\"img\" aria-label=\"{title}\">");
+    marks(page, plot);
+    *page += "</svg>";
+}
+
+fn marks(page: &mut String, plot: &Plot) {
     for mark in plot.drawn() {
         match mark {
             Mark::Line { points, ink, is_dashed } => {
@@ -156,7 +178,6 @@ fn svg(page: &mut String, plot: &Plot) {
             }
         }
     }
-    *page += "</svg>";
 }
 
 fn colour(ink: Ink) -> &'static str {

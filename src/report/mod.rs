@@ -20,7 +20,9 @@ pub(crate) use html::escaped;
 
 pub use document::{Document, Heading, Row, Subject, Table};
 pub use picture::{Picture, PictureError, Pixels, Strip};
-pub use plot::{Axis, Curve, Ink, Panel, Plot};
+#[cfg(not(target_arch = "wasm32"))]
+pub use html::svg_file;
+pub use plot::{Axis, Curve, Ink, Panel, Plot, sweep_plot};
 #[cfg(not(target_arch = "wasm32"))]
 pub use today::today;
 

@@ -6,6 +6,7 @@ use crate::pipeline::filter::Filter;
 use crate::pipeline::response::{SmoothingResponse, eigenvalue};
 use crate::pipeline::settings::Smoothing;
 use crate::say;
+use crate::trial::sweep::{Spread, SweepRow};
 use crate::vessel::certificate::{BranchCalibre, OnSurface, StationStatus};
 
 /// What a line or a letter is drawn in.
@@ -197,6 +198,36 @@ pub(super) fn radius(branch: &BranchCalibre, tolerance_percent: f64) -> Option<P
     let mut panels = vec![Panel { y, curves }];
     panels.extend(change(branch, [smoothed, reduced], x.range, tolerance_percent));
     Some(Plot { title: say!("vessels-radius-along", name = tell(&branch.label())), x, panels })
+}
+
+/// What trials come to over the reduction rate: how many arrive, by how much the tip goes another way, how hard it presses.
+/// The rates stand at equal distances.
+pub fn sweep_plot(file: &str, rows: &[(f64, SweepRow)]) -> Plot {
+    let curve = |name: String, ink: Ink, is_dashed: bool, value: &dyn Fn(&SweepRow) -> Option<f64>| Curve {
+        name,
+        points: (rows.iter().enumerate()).filter_map(|(i, (_, row))| Some([i as f64, value(row)?])).collect(),
+        ink,
+        is_dashed,
+    };
+    let panel = |label: String, curves: Vec<Curve>| {
+        let most = range(&curves).map_or(1.0, |(_, high)| 1.1 * high.max(1e-3));
+        Panel { y: Axis::round(label, [0.0, most]), curves }
+    };
+    let arrived = |row: &SweepRow| Some(100.0 * row.arrived as f64 / row.seeds.max(1) as f64);
+    let largest = |spread: Option<Spread>| spread.map(|spread| spread.largest);
+    let deviation = curve(say!("report-sweep-deviation"), Ink::Accent, false, &|row| largest(row.deviation_mm));
+    let noise = curve(say!("report-sweep-noise"), Ink::Weak, true, &|row| largest(row.noise_mm));
+    let force = curve(String::new(), Ink::Accent, false, &|row| largest(row.peak_force_n));
+    let marks = rows.iter().enumerate().map(|(i, (rate, _))| (i as f64, exact(*rate))).collect();
+    Plot {
+        title: say!("report-sweep", file = file),
+        x: Axis { label: say!("report-sweep-rate"), range: [-0.2, rows.len().max(2) as f64 - 0.8], marks },
+        panels: vec![
+            panel(say!("report-sweep-tip"), vec![noise, deviation]),
+            panel(say!("report-sweep-arrived"), vec![curve(String::new(), Ink::Accent, false, &arrived)]),
+            panel(say!("report-sweep-force"), vec![force]),
+        ],
+    }
 }
 
 /// The change of the radius from the surface as opened, in percent, between the bounds that are allowed; `None` where

@@ -58,6 +58,7 @@ pub mod setup;
 pub mod simulation;
 pub mod stopwatch;
 pub mod summary;
+pub mod sweep;
 pub mod virtual_coupling;
 pub mod wall;
 pub mod wire;

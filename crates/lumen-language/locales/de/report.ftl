@@ -118,3 +118,11 @@ report-change-allowed = zulässig: ±{ $percent } %
 
 report-error-size = ein Bild von { $width } × { $height } Pixeln kam mit { $bytes } Byte
 report-error-png = das Bild lässt sich nicht schreiben: { $why }
+
+report-sweep = Führungsdraht je nach Reduktion: { $file }
+report-sweep-rate = Reduktion, %
+report-sweep-tip = Spitze neben dem Weg ohne Reduktion, mm
+report-sweep-deviation = größte aller Versuche
+report-sweep-noise = nur andere Reihenfolge der Dreiecke
+report-sweep-arrived = Kommen an, %
+report-sweep-force = Größte Wandkraft, N

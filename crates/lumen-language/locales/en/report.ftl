@@ -127,3 +127,11 @@ report-change-allowed = allowed: ±{ $percent } %
 
 report-error-size = a picture of { $width } x { $height } pixels came with { $bytes } bytes
 report-error-png = the picture cannot be written: { $why }
+
+report-sweep = Guidewire by reduction: { $file }
+report-sweep-rate = Reduction, %
+report-sweep-tip = Tip off the unreduced path, mm
+report-sweep-deviation = largest of all seeds
+report-sweep-noise = order of triangles alone
+report-sweep-arrived = Arrive, %
+report-sweep-force = Peak wall force, N

@@ -118,3 +118,11 @@ report-change-allowed = toléré : ±{ $percent } %
 
 report-error-size = une image de { $width } × { $height } pixels est arrivée avec { $bytes } octets
 report-error-png = l'image ne peut pas être écrite : { $why }
+
+report-sweep = Guide selon la réduction : { $file }
+report-sweep-rate = Réduction, %
+report-sweep-tip = Pointe hors du trajet sans réduction, mm
+report-sweep-deviation = maximum des essais
+report-sweep-noise = seul ordre des triangles
+report-sweep-arrived = Arrivent, %
+report-sweep-force = Force maximale sur la paroi, N
