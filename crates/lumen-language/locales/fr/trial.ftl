@@ -294,7 +294,6 @@ trial-end-gave-up = { $count ->
     [one] l'autopilote a renoncé après { $count } retrait, la pointe encore à { $away } mm de la cible
    *[other] l'autopilote a renoncé après { $count } retraits, la pointe encore à { $away } mm de la cible
 }
-trial-end-exchanged = { $why } (avec le guide { $wire } ; échec auparavant de { $failed })
 trial-end-missed = { $why } ; { $missed }
 trial-missed-fork = il a manqué la bifurcation à { $along } mm sur le trajet : { $into } au lieu de { $instead }
 trial-missed-route = il a manqué la bifurcation à { $along } mm sur le trajet : { $into } au lieu de la suite du trajet
