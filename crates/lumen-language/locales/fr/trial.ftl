@@ -46,9 +46,9 @@ trial-cancelled = Annulé.
 ## How the trial stands, in one sentence
 
 trial-success = Succès : la pointe est arrivée après { $time } s ; force maximale sur la paroi { $force }.
-trial-success-exchanged = Succès : la pointe est arrivée après { $time } s avec le guide { $wire }, après l'échec de { $failed } ; force maximale sur la paroi { $force }.
+trial-success-exchanged = Succès : la pointe est arrivée après { $time } s avec le guide { $wire }, après l'échec de { $failed } ; force maximale sur la paroi { $force }.
 trial-failed = Échec après { $time } s : { $why }
-trial-failed-exchanged = Échec après { $time } s : { $why }
+trial-failed-exchanged = Échec après { $time } s avec le guide { $wire }, après l'échec de { $failed } : { $why }
 trial-arrived = Succès : la pointe est à la cible.
 trial-timed-out = Échec : le temps est écoulé.
 trial-gave-up = Échec : l'autopilote a renoncé.
