@@ -136,7 +136,7 @@ impl Trial {
         let mut pipeline = Pipeline::new(opened, settings).without_measures();
         advance(&mut pipeline)?;
         let mesh = pipeline.reduced().context("the pipeline ended without a result")?.mesh.clone();
-        let run = trial(&mesh, sample, setup, self.element)?;
+        let run = trial(&mesh, sample, setup, self.element, true)?;
         let summary = run.summary();
         if let Some(path) = &self.log {
             write_whole(path, run.log().csv(summary.steps)?.as_bytes())?;
@@ -176,17 +176,22 @@ impl Trial {
     }
 }
 
-/// Runs the autopilot on a surface to the end, the wire in elements of `element` mm if that is asked for.
+/// Runs the autopilot on a surface to the end, the wire in elements of `element` mm if that is asked for, and with other wires
+/// after it if that is.
 pub(super) fn trial(
     mesh: &Arc<TriMesh>,
     sample: Option<Sample>,
     mut setup: Setup,
     element: Option<f64>,
+    exchanges: bool,
 ) -> Result<Run> {
     let course = Course::new(mesh, sample, &mut setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
-    // The wire that is proposed comes with its own.
+    // Wires that are proposed come with their own.
     if let Some(element) = element {
-        setup.wire.elements_mm = [element; 2];
+        std::iter::once(&mut setup.wire).chain(&mut setup.next_wires).for_each(|wire| wire.elements_mm = [element; 2]);
+    }
+    if !exchanges {
+        setup.next_wires.clear();
     }
     let mut run = Run::new(Arc::new(course), setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
     run.set_autopilot(true);

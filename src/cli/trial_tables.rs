@@ -49,7 +49,7 @@ fn table(number: &'static str, file: &str, unit: Option<Unit>, notes: &mut Vec<S
         advance(&mut pipeline)?;
         let mesh = pipeline.reduced().context("the pipeline ended without a result")?.mesh.clone();
         let paper = printed.iter().find(|row| row.rate == rate);
-        match trial(&mesh, sample, setup.clone(), None) {
+        match trial(&mesh, sample, setup.clone(), None, false) {
             Ok(run) => {
                 if items.is_empty() {
                     notes.push(format!("Table {number}: {file}, wire {}.", run.setup().wire.name));

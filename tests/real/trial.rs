@@ -80,8 +80,9 @@ fn arrives(name: &str, mesh: &Arc<TriMesh>, mut setup: Setup) -> Result<(), Fail
         trial.set_autopilot(true);
         trial.finish();
         let summary = trial.summary();
-        if !summary.success {
-            failures.push(format!("seed {seed}: {}", summary.reason));
+        if !summary.success || !summary.failed_wires.is_empty() {
+            let failed = summary.failed_wires.join(", ");
+            failures.push(format!("seed {seed}: {} ({failed} failed before)", summary.reason));
         }
     }
     let seeds = seeds();

@@ -123,7 +123,7 @@ fn what_is_shown_comes_from_balanced_steps_and_the_share_of_others_is_told() {
     let table: Vec<&str> = csv.lines().filter(|line| !line.starts_with('#')).collect();
     let columns = table[0].split(',').count();
     assert!(table.iter().all(|line| line.split(',').count() == columns));
-    assert!(table[0].ends_with("balanced,unsettled,braked,waited,held,wanted_mm,fed_mm,residual_n"));
+    assert!(table[0].ends_with("balanced,unsettled,braked,waited,held,wanted_mm,fed_mm,residual_n,wire"));
     // Logs of the schema before it can be replayed.
     let older = csv.replace("log, schema 3", "log, schema 1");
     assert_eq!(Log::read(older.as_bytes()).unwrap().steps, summary.steps);

@@ -46,7 +46,7 @@ const STUCK: f64 = 1.2;
 const LOOPED: f64 = 0.5;
 /// Times that it tries again.
 const ATTEMPTS: u32 = 60;
-/// Times that it tries again at one place while there is another wire: from then on its tries would be the same again.
+/// The tries at one place, after the first, that are not the same as one before.
 const PLAN: usize = BY.len() * OFFSETS.len();
 /// Millimetres by which it is withdrawn, one attempt at a place after another.
 const BY: [f64; 3] = [6.0, 10.0, 16.0];

@@ -18,8 +18,9 @@ pub const SCHEMA: u32 = 3;
 const COLUMNS: &str = "step,time_s,feed_mm_s,roll_rad_s,inserted_mm,roll_rad,tip_x,tip_y,tip_z,tip_dx,tip_dy,tip_dz,\
 arc_mm,branch,off_route,target_mm,path_ratio,contacts,wall_force_n,max_wall_force_n,max_x,max_y,max_z,tip_force_n,\
 push_n,torque_n_mm,retractions,wrong_branches,step_ms,balanced,unsettled,braked,waited,held,wanted_mm,fed_mm,residual_n,wire";
-/// The place of the last of them: logs before schema 3 have no such column, and one wire.
+/// The place of the last of them, and the first schema that has it: trials before that have one wire.
 const WIRE: usize = 37;
+const WITH_WIRES: u32 = 3;
 
 /// The oldest schema whose input can be read.
 const OLDEST: u32 = 1;
@@ -192,9 +193,9 @@ impl Log {
         let mut lines = text.lines().enumerate();
         let head = lines.next().and_then(|(_, line)| line.strip_prefix("# lumen trial log, schema "));
         let schema = head.ok_or(LogError::NoLog)?.trim();
-        if !schema.parse().is_ok_and(|schema: u32| (OLDEST..=SCHEMA).contains(&schema)) {
+        let Some(version) = schema.parse::<u32>().ok().filter(|version| (OLDEST..=SCHEMA).contains(version)) else {
             return Err(LogError::Schema { found: schema.to_owned(), oldest: OLDEST, newest: SCHEMA });
-        }
+        };
         let (mut setup, mut surface, mut inputs) = (None::<Setup>, String::new(), Vec::<Command>::new());
         let mut steps = 0;
         let mut has_columns = false;
@@ -219,8 +220,11 @@ impl Log {
                 if inputs.last().is_some_and(|last| last.step >= step) {
                     return Err(wrong(LineProblem::Order));
                 }
-                let wire =
-                    fields.get(WIRE).map_or(Ok(0), |field| field.parse()).map_err(|_| wrong(LineProblem::Wire))?;
+                let wire = match fields.get(WIRE) {
+                    Some(field) => field.parse().map_err(|_| wrong(LineProblem::Wire))?,
+                    None if version < WITH_WIRES => 0,
+                    None => return Err(wrong(LineProblem::Wire)),
+                };
                 if setup.as_ref().is_some_and(|setup| setup.nth_wire(wire).is_none()) {
                     return Err(wrong(LineProblem::Wire));
                 }

@@ -84,4 +84,26 @@ mod tests {
         // A wire that comes through the waist enters at the widest end; for a thicker one there is nothing behind it.
         assert!(proposed_z(Wire::USUAL) < 8.0 && proposed_z(Wire::LONG_BEND) > 50.0);
     }
+
+    #[test]
+    fn the_wires_that_follow_have_room_and_another_bend() {
+        let of = |radius: f32, first| {
+            let tree = Tree::new(&tube(32, 60, 40.0, |_| radius)).unwrap();
+            let route = tree.route(Vec3::Z * 3.0, Vec3::Z * 37.0).unwrap();
+            next_wires(&route, &Wire::named(first)).into_iter().map(|wire| wire.name).collect::<Vec<_>>()
+        };
+        assert_eq!(of(2.0, Wire::LONG_BEND), [Wire::CURVE, Wire::USUAL]);
+        assert_eq!(of(2.0, Wire::USUAL), [Wire::LONG_BEND, "workhorse-j"]);
+        // 1.2 mm across: 1.5 times 0.356 mm, and not 0.889.
+        assert_eq!(of(0.6, Wire::USUAL), ["workhorse-j"]);
+    }
+
+    #[test]
+    fn what_a_wire_has_reached_before_it_moves_is_no_target() {
+        let of = |length: f32| {
+            let tree = Tree::new(&tube(32, 40, length, |_| 0.4)).unwrap();
+            tree.targets(Vec3::Z * 1.0, 0.0).len()
+        };
+        assert_eq!((of(5.0), of(20.0)), (0, 1));
+    }
 }

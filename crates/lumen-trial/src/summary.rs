@@ -149,15 +149,6 @@ messages! {
             let times = if *count == 1 { "1 retraction".to_owned() } else { format!("{} retractions", grouped(count)) };
             format!("the autopilot gave up after {times} with the tip {away:.1} mm from the target")
         },
-        /// Other wires were tried before.
-        "trial-end-exchanged" Exchanged {
-            /// How it ended.
-            why: Box<TrialEnd>,
-            /// The name of the wire that it ended with.
-            wire: String,
-            /// Those that failed before it, with commas between.
-            failed: String,
-        } => "{why} (with the wire {wire}, after {failed} had failed)",
         /// It failed for a fork that was missed.
         "trial-end-missed" Missed {
             /// How it ended.
@@ -183,15 +174,10 @@ impl Trial {
             Progress::Over => TrialEnd::Over { away },
             Progress::GaveUp => TrialEnd::GaveUp { count: self.meter().retractions, away },
         };
-        let why = match self.missed_fork().filter(|_| self.has_failed()) {
+        match self.missed_fork().filter(|_| self.has_failed()) {
             Some(missed) => TrialEnd::Missed { why: Box::new(why), missed },
             None => why,
-        };
-        let failed = self.failed_wires();
-        if failed.is_empty() {
-            return why;
         }
-        TrialEnd::Exchanged { why: Box::new(why), wire: self.wire().name.clone(), failed: failed.join(", ") }
     }
 
     /// What came of it, up to now.

@@ -127,7 +127,10 @@ impl Trial {
         let recorded = Log::read(&bytes).map(|recorded| recorded.setup);
         let csv = Arc::new(bytes);
         let is_same = |setup: &Setup| {
-            self.setup_in_force().is_some_and(|force| (force.entry, force.target) == (setup.entry, setup.target))
+            self.setup_in_force().is_some_and(|force| {
+                (force.entry, force.target, &force.wire, &force.next_wires)
+                    == (setup.entry, setup.target, &setup.wire, &setup.next_wires)
+            })
         };
         match recorded {
             // With another wire another target is proposed: the log's own way is taken.

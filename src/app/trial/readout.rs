@@ -20,20 +20,17 @@ const END: f32 = 40.0;
 /// One sentence on how the trial stands.
 pub(super) fn sentence(run: &Run, frame: &Frame) -> (String, bool) {
     if let Some(summary) = &run.summary {
-        let time = decimal(summary.time_s, 1);
-        let text = if summary.success && !summary.failed_wires.is_empty() {
-            let failed: Vec<String> = summary.failed_wires.iter().map(|wire| words(wire)).collect();
-            say!(
-                "trial-success-exchanged",
-                time = time,
-                wire = words(&summary.wire),
-                failed = failed.join(", "),
-                force = force(summary.max_wall_force_n)
-            )
-        } else if summary.success {
-            say!("trial-success", time = time, force = force(summary.max_wall_force_n))
-        } else {
-            say!("trial-failed", time = time, why = run.end.as_ref().map_or_else(String::new, |end| tell(end)))
+        let (time, force) = (decimal(summary.time_s, 1), force(summary.max_wall_force_n));
+        let why = run.end.as_ref().map_or_else(String::new, |end| tell(end));
+        let wire = words(&summary.wire);
+        let failed = summary.failed_wires.iter().map(|wire| words(wire)).collect::<Vec<_>>().join(", ");
+        let text = match (summary.success, summary.failed_wires.is_empty()) {
+            (true, true) => say!("trial-success", time = time, force = force),
+            (true, false) => {
+                say!("trial-success-exchanged", time = time, wire = wire, failed = failed, force = force)
+            }
+            (false, true) => say!("trial-failed", time = time, why = why),
+            (false, false) => say!("trial-failed-exchanged", time = time, wire = wire, failed = failed, why = why),
         };
         return (text, summary.success);
     }

@@ -47,7 +47,10 @@ pub(super) fn wire(ui: &mut Ui, setup: &mut Setup, proposed: Option<&Wire>) {
     let fold = CollapsingHeader::new(say!("trial-wire-numbers")).id_salt("wire numbers");
     fold.show(ui, |ui| numbers(ui, &mut setup.wire));
     // What is changed by hand is no longer what is proposed.
-    setup.proposes_wire &= setup.wire == known;
+    if setup.wire != known {
+        setup.proposes_wire = false;
+        setup.next_wires.clear();
+    }
 }
 
 /// A preset's name in words.
@@ -70,7 +73,7 @@ fn numbers(ui: &mut Ui, wire: &mut Wire) {
     let words = [say!("trial-tip-angle"), say!("trial-tip-angle-help")];
     setting(&words, "°", 0.0..=200.0, default.bend_degrees, 0, false).show(ui, &mut wire.bend_degrees);
     let words = [say!("trial-tip-length"), say!("trial-tip-length-help")];
-    setting(&words, " mm", 1.0..=20.0, default.bend_mm, 1, false).show(ui, &mut wire.bend_mm);
+    setting(&words, " mm", 1.0..=40.0, default.bend_mm, 1, false).show(ui, &mut wire.bend_mm);
     wire.straight_end_mm = wire.straight_end_mm.min(wire.bend_mm);
     let words = [say!("trial-tip-stiffness"), say!("trial-tip-stiffness-help")];
     setting(&words, " N mm²", 0.01..=20.0, default.tip_ei, 2, true).show(ui, &mut wire.tip_ei);

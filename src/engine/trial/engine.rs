@@ -39,7 +39,7 @@ impl TrialEngine {
         match command {
             TrialCommand::Start { id, mesh, sample, setup } => {
                 self.events.push_back(TrialEvent::Preparing { id, fraction: 0.0 });
-                match start(&mesh, sample, setup) {
+                match start(&mesh, sample, setup, true) {
                     Ok(trial) => {
                         let ready = TrialReady::new(id, trial.setup(), trial.course());
                         self.events.push_back(TrialEvent::Ready(Box::new(ready)));

@@ -65,7 +65,8 @@ impl Jobs {
         sample: Option<Sample>,
         setup: Setup,
     ) -> Result<(), TrialError> {
-        let mut trial = start(mesh, sample, setup)?;
+        // The rows of a table are of one wire.
+        let mut trial = start(mesh, sample, setup, false)?;
         trial.set_autopilot(true);
         self.add(id, trial, Kind::Measure);
         Ok(())

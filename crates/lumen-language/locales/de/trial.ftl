@@ -46,8 +46,9 @@ trial-cancelled = Abgebrochen.
 ## How the trial stands, in one sentence
 
 trial-success = Erfolg: Die Spitze kam nach { $time } s an; größte Wandkraft { $force }.
-trial-success-exchanged = Erfolg: Die Spitze kam nach { $time } s mit dem Draht { $wire } an, nachdem { $failed } gescheitert war; größte Wandkraft { $force }.
+trial-success-exchanged = Erfolg: Die Spitze kam nach { $time } s mit dem Draht { $wire } an (zuvor gescheitert: { $failed }); größte Wandkraft { $force }.
 trial-failed = Gescheitert nach { $time } s: { $why }
+trial-failed-exchanged = Gescheitert nach { $time } s mit dem Draht { $wire } (zuvor gescheitert: { $failed }): { $why }
 trial-arrived = Erfolg: Die Spitze ist am Ziel.
 trial-timed-out = Gescheitert: Die Zeit ist um.
 trial-gave-up = Gescheitert: Der Autopilot gab auf.
@@ -294,7 +295,6 @@ trial-end-gave-up = { $count ->
     [one] der Autopilot gab nach { $count } Rückzug auf, die Spitze noch { $away } mm vom Ziel entfernt
    *[other] der Autopilot gab nach { $count } Rückzügen auf, die Spitze noch { $away } mm vom Ziel entfernt
 }
-trial-end-exchanged = { $why } (mit dem Draht { $wire }; zuvor gescheitert: { $failed })
 trial-end-missed = { $why }; { $missed }
 trial-missed-fork = er verfehlte die Gabelung nach { $along } mm der Route und nahm { $into } statt { $instead }
 trial-missed-route = er verfehlte die Gabelung nach { $along } mm der Route und nahm { $into }, statt der Route zu folgen

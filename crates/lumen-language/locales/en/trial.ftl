@@ -51,6 +51,7 @@ trial-success = Success: the tip arrived after { $time } s; largest wall force {
 trial-success-exchanged = Success: the tip arrived after { $time } s with the wire { $wire }, after { $failed } had failed; largest wall force { $force }.
 # Why is one of trial-end-...
 trial-failed = Failed after { $time } s: { $why }
+trial-failed-exchanged = Failed after { $time } s with the wire { $wire }, after { $failed } had failed: { $why }
 trial-arrived = Success: the tip is at the target.
 trial-timed-out = Failed: the time is over.
 trial-gave-up = Failed: the autopilot gave up.

@@ -46,8 +46,9 @@ trial-cancelled = Annulé.
 ## How the trial stands, in one sentence
 
 trial-success = Succès : la pointe est arrivée après { $time } s ; force maximale sur la paroi { $force }.
-trial-success-exchanged = Succès : la pointe est arrivée après { $time } s avec le guide { $wire }, après l'échec de { $failed } ; force maximale sur la paroi { $force }.
+trial-success-exchanged = Succès : la pointe est arrivée après { $time } s avec le guide { $wire }, après l'échec de { $failed } ; force maximale sur la paroi { $force }.
 trial-failed = Échec après { $time } s : { $why }
+trial-failed-exchanged = Échec après { $time } s avec le guide { $wire }, après l'échec de { $failed } : { $why }
 trial-arrived = Succès : la pointe est à la cible.
 trial-timed-out = Échec : le temps est écoulé.
 trial-gave-up = Échec : l'autopilote a renoncé.
@@ -294,7 +295,6 @@ trial-end-gave-up = { $count ->
     [one] l'autopilote a renoncé après { $count } retrait, la pointe encore à { $away } mm de la cible
    *[other] l'autopilote a renoncé après { $count } retraits, la pointe encore à { $away } mm de la cible
 }
-trial-end-exchanged = { $why } (avec le guide { $wire } ; échec auparavant de { $failed })
 trial-end-missed = { $why } ; { $missed }
 trial-missed-fork = il a manqué la bifurcation à { $along } mm sur le trajet : { $into } au lieu de { $instead }
 trial-missed-route = il a manqué la bifurcation à { $along } mm sur le trajet : { $into } au lieu de la suite du trajet

@@ -201,6 +201,8 @@ impl Trial {
     /// Steers by itself from the next row of the log on, or no longer.
     pub fn set_autopilot(&mut self, on: bool) {
         self.is_steered = on;
+        // What a hand has done since then may have helped.
+        self.state.leaving = None;
         self.wanted = Input::default();
     }
 
@@ -312,15 +314,13 @@ impl Trial {
     /// What the autopilot does until the next row.
     fn steer(&mut self) {
         self.state.input = Input::default();
-        let next = self.state.wire + 1;
         if let Some(steps) = self.state.leaving {
             if self.state.simulation.is_back() {
-                // One that is too thick for the entry is passed over.
-                if !(next..=self.setup.next_wires.len()).any(|wire| self.exchange(wire)) {
+                if !self.next_that_fits().is_some_and(|wire| self.exchange(wire)) {
                     self.state.progress = Progress::GaveUp;
                 }
             } else if steps as f64 * STEP > self.limit_s {
-                self.state.progress = Progress::TimedOut;
+                self.state.progress = Progress::GaveUp;
             } else {
                 self.state.input.feed = -WITHDRAWAL as f32;
             }
@@ -329,16 +329,20 @@ impl Trial {
         let seen = self.seen();
         let input = self.state.autopilot.decide(&self.course.route, &seen);
         self.state.meter.retractions = self.state.retractions + self.state.autopilot.retractions;
-        let has_next = next <= self.setup.next_wires.len();
         let is_late = self.state.steered as f64 * STEP > self.limit_s;
+        let has_failed = is_late || input.is_none() || self.state.autopilot.has_failed_at_a_place();
         match input {
-            _ if has_next && (is_late || input.is_none() || self.state.autopilot.has_failed_at_a_place()) => {
-                self.state.leaving = Some(0);
-            }
+            _ if has_failed && self.next_that_fits().is_some() => self.state.leaving = Some(0),
             _ if is_late => self.state.progress = Progress::TimedOut,
             Some(input) => self.state.input = input.limited(),
             None => self.state.progress = Progress::GaveUp,
         }
+    }
+
+    /// The next wire that fits at the entry: one that is too thick is passed over.
+    fn next_that_fits(&self) -> Option<usize> {
+        let fits = |wire: &Wire| self.course.place(&self.setup, wire).is_ok();
+        (self.state.wire + 1..=self.setup.next_wires.len()).find(|&wire| self.setup.nth_wire(wire).is_some_and(fits))
     }
 
     /// What the autopilot is doing.
@@ -356,7 +360,7 @@ impl Trial {
         state.retractions = state.meter.retractions;
         (state.simulation, state.friction, state.wire) = (simulation, friction, wire);
         (state.autopilot, state.steered, state.leaving) = (Autopilot::default(), 0, None);
-        (state.located, state.missed, state.is_off, state.is_looped) = (None, None, false, false);
+        (state.located, state.missed, state.is_off, state.is_looped, state.arc) = (None, None, false, false, 0.0);
         self.look();
         true
     }

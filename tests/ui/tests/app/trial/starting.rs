@@ -107,10 +107,12 @@ fn the_wire_that_went_in_for_one_that_failed_is_named() {
     };
     tell(&mut harness, &memory, [ended(id, summary)]);
     assert!(says(&harness, "after 61.2 s with the wire 0.035 in J tip, after 0.014 in workhorse had failed"));
-    // The next beginning proposes anew.
+    // The first goes in again.
     press(&mut harness, "Restart");
     let commands = asked(&memory);
-    assert!(matches!(commands.first(), Some(TrialCommand::Restart { .. })), "{commands:?}");
+    let Some(&TrialCommand::Restart { id }) = commands.first() else { panic!("{commands:?}") };
+    tell(&mut harness, &memory, [now(id, frame())]);
+    assert_eq!(value(&harness), "0.014 in workhorse");
 }
 
 #[test]
