@@ -15,7 +15,7 @@ use super::{interrupt, places};
 use crate::io::Unit;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Target;
-use crate::report::{sweep_plot, svg_file};
+use crate::report::{svg_file, sweep_plot};
 use crate::trial::setup::Setup;
 use crate::trial::sweep::{Spread, SweepRow, settled_setup, sweep};
 use crate::trial::wire::Wire;
@@ -61,7 +61,8 @@ impl Sweep {
         places::check([Path::new(&self.file)], outputs)?;
         let setup = self.setup()?;
         let (opened, _) = surface(&self.file, None, self.unit)?;
-        let at = |rate: f64| settings((self.pass_band, self.iterations), Target::Reduction((rate * 10.0).round() as u32));
+        let at =
+            |rate: f64| settings((self.pass_band, self.iterations), Target::Reduction((rate * 10.0).round() as u32));
         at(0.0).check().map_err(misuse)?;
         let mut pipeline = Pipeline::new(opened, at(0.0)).without_measures();
         let mut level = |rate: f64| -> Result<_> {
@@ -72,7 +73,10 @@ impl Sweep {
         let original = level(0.0)?;
         let setup = settled_setup(&original, setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
         row("wire", &setup.wire.name);
-        println!("{:>7} {:>10} {:>8} {:>22} {:>18} {:>16}", "rate", "triangles", "arrive", "deviation (noise) mm", "peak force N", "mean force N");
+        println!(
+            "{:>7} {:>10} {:>8} {:>22} {:>18} {:>16}",
+            "rate", "triangles", "arrive", "deviation (noise) mm", "peak force N", "mean force N"
+        );
         let mut rows = Vec::new();
         for &rate in &self.rates {
             let mesh = level(rate)?;
@@ -134,7 +138,8 @@ fn csv(rows: &[(f64, SweepRow)]) -> Result<Vec<u8>> {
     for (rate, row) in rows {
         let spreads = [row.deviation_mm, row.noise_mm, row.peak_force_n, row.mean_force_n, row.time_s];
         let values = spreads.iter().flat_map(|spread| {
-            let text = |value: fn(&Spread) -> f64| spread.as_ref().map_or(String::new(), |it| format!("{:.6}", value(it)));
+            let text =
+                |value: fn(&Spread) -> f64| spread.as_ref().map_or(String::new(), |it| format!("{:.6}", value(it)));
             [text(|spread| spread.median), text(|spread| spread.largest)]
         });
         let counts = [rate.to_string(), row.triangles.to_string(), row.seeds.to_string(), row.arrived.to_string()];

@@ -19,9 +19,9 @@ use serde::{Deserialize, Serialize};
 pub(crate) use html::escaped;
 
 pub use document::{Document, Heading, Row, Subject, Table};
-pub use picture::{Picture, PictureError, Pixels, Strip};
 #[cfg(not(target_arch = "wasm32"))]
 pub use html::svg_file;
+pub use picture::{Picture, PictureError, Pixels, Strip};
 pub use plot::{Axis, Curve, Ink, Panel, Plot, sweep_plot};
 #[cfg(not(target_arch = "wasm32"))]
 pub use today::today;
