@@ -60,7 +60,7 @@ impl Sweep {
         let outputs = outputs.into_iter().filter_map(|(what, path)| Some((what.to_owned(), path.as_deref()?)));
         places::check([Path::new(&self.file)], outputs)?;
         let setup = self.setup()?;
-        let (opened, _) = surface(&self.file, None, self.unit)?;
+        let (opened, sample) = surface(&self.file, None, self.unit)?;
         let at =
             |rate: f64| settings((self.pass_band, self.iterations), Target::Reduction((rate * 10.0).round() as u32));
         at(0.0).check().map_err(misuse)?;
@@ -71,7 +71,8 @@ impl Sweep {
             Ok(pipeline.reduced().context("the pipeline ended without a result")?.mesh.clone())
         };
         let original = level(0.0)?;
-        let setup = settled_setup(&original, setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
+        let setup =
+            settled_setup(&original, sample, setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
         row("wire", &setup.wire.name);
         println!(
             "{:>7} {:>10} {:>8} {:>22} {:>18} {:>16}",

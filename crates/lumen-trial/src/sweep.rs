@@ -9,6 +9,7 @@ use super::frame::Progress;
 use super::session::Trial;
 use super::setup::Setup;
 use lumen_mesh::{TriMesh, parallel};
+use lumen_vessel::phantom::Sample;
 
 /// Steps between two looks at whether it is to be cancelled.
 const SLICE: u32 = 500;
@@ -56,8 +57,8 @@ pub struct SweepRow {
 ///
 /// # Errors
 /// When there is no way for it.
-pub fn settled_setup(original: &Arc<TriMesh>, mut setup: Setup) -> Result<Setup, TrialError> {
-    let course = Arc::new(Course::new(original, None, &mut setup)?);
+pub fn settled_setup(original: &Arc<TriMesh>, sample: Option<Sample>, mut setup: Setup) -> Result<Setup, TrialError> {
+    let course = Arc::new(Course::new(original, sample, &mut setup)?);
     if !setup.next_wires.is_empty() {
         let mut trial = Trial::new(course, setup.clone())?;
         trial.set_autopilot(true);
@@ -128,7 +129,7 @@ mod tests {
     fn a_surface_beside_itself_differs_by_nothing_and_a_narrower_one_by_something() {
         let vessel = |radius: f32| Arc::new(tube(24, 40, 40.0, move |_| radius));
         let [wide, narrow] = [2.0, 1.7].map(vessel);
-        let setup = settled_setup(&wide, Setup::default()).unwrap();
+        let setup = settled_setup(&wide, None, Setup::default()).unwrap();
         let [same, other] = [&wide, &narrow].map(|mesh| sweep(mesh, &wide, &setup, 3, || false).unwrap().unwrap());
         assert_eq!((same.seeds, same.arrived, same.deviation_mm), (3, 3, Some(Spread::default())));
         let (deviation, noise) = (other.deviation_mm.unwrap(), other.noise_mm.unwrap());
