@@ -90,15 +90,13 @@ impl Course {
         let found = tree.entries().into_iter().filter(|(_, entry)| is_inside(entry));
         let own = task.iter().map(|(entry, _)| (PlaceName::Own, *entry));
         let entries: Vec<_> = own.chain(found).collect();
-        let entry = match setup.entry {
-            Some(entry) => entry,
-            None => match &task {
-                Some((entry, _)) => *entry,
-                None if setup.target.is_some() => entries.first().ok_or(TrialError::NoEntry)?.1,
-                None => proposed_entry(&tree, &entries, (!setup.proposes_wire).then_some(&setup.wire))
-                    .ok_or(TrialError::NoEntry)?,
-            },
+        let entry = match (setup.entry, &task) {
+            (Some(entry), _) => Some(entry),
+            (None, Some((entry, _))) => Some(*entry),
+            (None, None) if setup.target.is_some() => entries.first().map(|(_, entry)| *entry),
+            (None, None) => proposed_entry(&tree, &entries, (!setup.proposes_wire).then_some(&setup.wire)),
         };
+        let entry = entry.ok_or(TrialError::NoEntry)?;
         setup.entry = Some(entry);
         let from = Vec3::from(entry.at);
         let mut best = None;
