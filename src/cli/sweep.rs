@@ -10,7 +10,7 @@ use super::options::percent;
 use super::places::write_whole;
 use super::rows::row;
 use super::running::advance;
-use super::trial::{SMOOTHING, settings, surface};
+use super::trial::{SMOOTHING, settings, surface, wire};
 use super::{interrupt, places};
 use crate::io::Unit;
 use crate::pipeline::run::Pipeline;
@@ -18,7 +18,6 @@ use crate::pipeline::settings::Target;
 use crate::report::{svg_file, sweep_plot};
 use crate::trial::setup::Setup;
 use crate::trial::sweep::{Spread, SweepRow, settled_setup, sweep};
-use crate::trial::wire::Wire;
 
 /// Shows what reduction does to a guidewire: trials by the autopilot at each rate, beside the unreduced surface.
 #[derive(Debug, Args)]
@@ -59,7 +58,8 @@ impl Sweep {
         let outputs = [("the table", &self.csv), ("the plot", &self.plot)];
         let outputs = outputs.into_iter().filter_map(|(what, path)| Some((what.to_owned(), path.as_deref()?)));
         places::check([Path::new(&self.file)], outputs)?;
-        let setup = self.setup()?;
+        let wire = wire(self.wire.as_deref())?;
+        let setup = Setup { wire, proposes_wire: self.wire.is_none(), ..Setup::default() };
         let (opened, sample) = surface(&self.file, None, self.unit)?;
         let at =
             |rate: f64| settings((self.pass_band, self.iterations), Target::Reduction((rate * 10.0).round() as u32));
@@ -75,8 +75,8 @@ impl Sweep {
             settled_setup(&original, sample, setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
         row("wire", &setup.wire.name);
         println!(
-            "{:>7} {:>10} {:>8} {:>22} {:>18} {:>16}",
-            "rate", "triangles", "arrive", "deviation (noise) mm", "peak force N", "mean force N"
+            "{:>7} {:>10} {:>8} {:>14} {:>12} {:>14} {:>14}",
+            "rate", "triangles", "arrive", "deviation mm", "noise mm", "peak force N", "mean force N"
         );
         let mut rows = Vec::new();
         for &rate in &self.rates {
@@ -103,29 +103,21 @@ impl Sweep {
         println!("{NOTICE}");
         interrupt::check()
     }
-
-    fn setup(&self) -> Result<Setup> {
-        let wire = match self.wire.as_deref() {
-            None => Wire::default(),
-            Some(name) => Wire::preset(name).ok_or_else(|| {
-                let names: Vec<_> = Wire::names().collect();
-                misuse(format!("there is no wire {name:?}; there are {}", names.join(", ")))
-            })?,
-        };
-        Ok(Setup { wire, proposes_wire: self.wire.is_none(), ..Setup::default() })
-    }
 }
 
+/// A row of the table on the screen: of each quantity the median and the largest of the seeds.
 fn line(rate: f64, row: &SweepRow) -> String {
-    let largest = |spread: Option<Spread>| spread.map_or(f64::NAN, |spread| spread.largest);
-    let median = |spread: Option<Spread>| spread.map_or(f64::NAN, |spread| spread.median);
+    let told = |spread: Option<Spread>, decimals: usize| {
+        spread.map_or("-".to_owned(), |it| format!("{:.decimals$}, {:.decimals$}", it.median, it.largest))
+    };
     format!(
-        "{rate:>5} % {:>10} {:>8} {:>22} {:>18.3} {:>16.4}",
+        "{rate:>5} % {:>10} {:>8} {:>14} {:>12} {:>14} {:>14}",
         row.triangles,
         format!("{} of {}", row.arrived, row.seeds),
-        format!("{:.2} ({:.2})", largest(row.deviation_mm), largest(row.noise_mm)),
-        largest(row.peak_force_n),
-        median(row.mean_force_n)
+        told(row.deviation_mm, 2),
+        told(row.noise_mm, 2),
+        told(row.peak_force_n, 3),
+        told(row.mean_force_n, 4)
     )
 }
 

@@ -149,13 +149,7 @@ impl Trial {
     }
 
     fn setup(&self) -> Result<Setup> {
-        let mut wire = match self.wire.as_deref() {
-            None => Wire::default(),
-            Some(name) => Wire::preset(name).ok_or_else(|| {
-                let names: Vec<_> = Wire::names().collect();
-                misuse(format!("there is no wire {name:?}; there are {}", names.join(", ")))
-            })?,
-        };
+        let mut wire = wire(self.wire.as_deref())?;
         if let Some(element) = self.element {
             wire.elements_mm = [element; 2];
         }
@@ -174,6 +168,15 @@ impl Trial {
         setup.check_loads().map_err(misuse)?;
         Ok(setup)
     }
+}
+
+/// The wire of that name; without one, the first.
+pub(super) fn wire(name: Option<&str>) -> Result<Wire> {
+    let Some(name) = name else { return Ok(Wire::default()) };
+    Wire::preset(name).ok_or_else(|| {
+        let names: Vec<_> = Wire::names().collect();
+        misuse(format!("there is no wire {name:?}; there are {}", names.join(", ")))
+    })
 }
 
 /// Runs the autopilot on a surface to the end, the wire in elements of `element` mm if that is asked for, and with other wires

@@ -217,13 +217,15 @@ pub fn sweep_plot(file: &str, rows: &[(f64, SweepRow)]) -> Plot {
     let largest = |spread: Option<Spread>| spread.map(|spread| spread.largest);
     let deviation = curve(say!("report-sweep-deviation"), Ink::Accent, false, &|row| largest(row.deviation_mm));
     let noise = curve(say!("report-sweep-noise"), Ink::Weak, true, &|row| largest(row.noise_mm));
-    let force = curve(String::new(), Ink::Accent, false, &|row| largest(row.peak_force_n));
+    let median = |row: &SweepRow| Some(row.deviation_mm?.median);
+    let median = curve(say!("report-sweep-median"), Ink::Accent, true, &median);
+    let force = curve(String::new(), Ink::Accent, false, &|row| Some(1000.0 * largest(row.peak_force_n)?));
     let marks = rows.iter().enumerate().map(|(i, (rate, _))| (i as f64, exact(*rate))).collect();
     Plot {
         title: say!("report-sweep", file = file),
         x: Axis { label: say!("report-sweep-rate"), range: [-0.2, rows.len().max(2) as f64 - 0.8], marks },
         panels: vec![
-            panel(say!("report-sweep-tip"), vec![noise, deviation]),
+            panel(say!("report-sweep-tip"), vec![noise, median, deviation]),
             panel(say!("report-sweep-arrived"), vec![curve(String::new(), Ink::Accent, false, &arrived)]),
             panel(say!("report-sweep-force"), vec![force]),
         ],

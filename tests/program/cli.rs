@@ -304,6 +304,33 @@ fn a_wire_that_is_pressed_touches_in_more_places() {
 }
 
 #[test]
+fn a_sweep_tells_of_each_rate_and_the_unreduced_surface_beside_itself_differs_by_nothing() {
+    let folder = Folder::new("sweep");
+    let [table, plot] = ["sweep.csv", "sweep.svg"].map(|name| folder.file(name));
+    let asked = ["sweep", "sample:aorta", "--rates", "0,99", "--seeds", "2", "--csv", &table, "--plot", &plot];
+    let printed = succeed(&asked);
+    assert!(printed.contains("2 of 2") && printed.ends_with("Not for clinical decisions.\n"), "{printed}");
+    let text = std::fs::read_to_string(&table).unwrap();
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+    assert!(text.starts_with("# not for clinical decisions."));
+    let rows: Vec<std::collections::BTreeMap<String, String>> = reader.deserialize().map(Result::unwrap).collect();
+    let number = |row: usize, name: &str| rows[row][name].parse::<f64>().unwrap();
+    assert_eq!((number(0, "rate_percent"), number(0, "triangles")), (0.0, 74_307.0));
+    assert_eq!((number(1, "rate_percent"), number(1, "seeds"), number(1, "arrived")), (99.0, 2.0, 2.0));
+    assert_eq!(number(0, "deviation_mm_max"), 0.0, "the same input on the same surface");
+    assert!(
+        number(1, "deviation_mm_max") >= number(1, "deviation_mm_median") && number(1, "deviation_mm_median") > 0.0
+    );
+    assert!(number(1, "noise_mm_median") > 0.0 && number(1, "peak_force_n_max") > 0.0);
+    let picture = std::fs::read_to_string(&plot).unwrap();
+    let tree = picture.replace("xmlns=", "");
+    assert!(tree.starts_with("<svg") && tree.contains("Not for clinical decisions"), "{picture}");
+    let refused = lumen(&["sweep", "sample:aorta", "--wire", "bamboo"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("there is no wire \"bamboo\""));
+}
+
+#[test]
 fn what_no_trial_can_be_made_of_gets_a_sentence() {
     for (arguments, status, sentence) in [
         (&["--wire", "bamboo"][..], 2, "there is no wire \"bamboo\"; there are floppy, workhorse"),

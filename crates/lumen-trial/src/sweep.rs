@@ -3,6 +3,9 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
+use super::STEP;
 use super::compare::{Noise, TrialComparison};
 use super::course::{Course, TrialError};
 use super::frame::Progress;
@@ -15,7 +18,7 @@ use lumen_vessel::phantom::Sample;
 const SLICE: u32 = 500;
 
 /// The middle and the largest of the values of all seeds.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// The median.
     pub median: f64,
@@ -32,17 +35,18 @@ impl Spread {
 }
 
 /// The trials on one surface.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SweepRow {
     /// Its triangles.
     pub triangles: usize,
-    /// Seeds that were tried, and how many of them arrived.
+    /// Seeds that were tried.
     pub seeds: usize,
-    /// How many arrived.
+    /// On how many of them the wire arrived.
     pub arrived: usize,
     /// The largest distance of the tip from where the same input brings it on the unreduced surface, in mm.
     pub deviation_mm: Option<Spread>,
-    /// The same on the surface itself with its triangles in another order: what is less than that says nothing.
+    /// The same between the unreduced surface and that with its triangles in another order: what is less than that says
+    /// nothing of the reduction.
     pub noise_mm: Option<Spread>,
     /// The largest force at one place of the wall, in N.
     pub peak_force_n: Option<Spread>,
@@ -71,8 +75,92 @@ pub fn settled_setup(original: &Arc<TriMesh>, sample: Option<Sample>, mut setup:
     Ok(setup)
 }
 
-/// The autopilot's trials on a surface by the seeds 1 to `seeds`, and each again on the unreduced one with the same input.
-/// `None` when it was cancelled.
+/// The three runs of one seed: by autopilot on the reduced surface, then with the same input on the unreduced one, and on that
+/// with its triangles in another order.
+#[derive(Debug)]
+pub struct SeedRuns {
+    original: Arc<TriMesh>,
+    /// In that order.
+    runs: Vec<Trial>,
+}
+
+/// Runs of a seed.
+const RUNS: usize = 3;
+
+impl SeedRuns {
+    /// By the autopilot on a course in the reduced surface.
+    ///
+    /// # Errors
+    /// When the setup makes no trial there.
+    pub fn new(course: Arc<Course>, setup: Setup, original: &Arc<TriMesh>) -> Result<Self, TrialError> {
+        let mut trial = Trial::new(course, setup)?;
+        trial.set_autopilot(true);
+        Ok(Self { original: original.clone(), runs: vec![trial] })
+    }
+
+    /// Goes on for at most `steps` steps. Gives what comes of the runs once they are over.
+    ///
+    /// # Errors
+    /// When the wire does not fit in the other surface.
+    pub fn advance(&mut self, steps: u32) -> Result<Option<TrialComparison>, TrialError> {
+        if let Some(trial) = self.runs.last_mut() {
+            for _ in 0..steps {
+                if trial.progress() != Progress::Running {
+                    break;
+                }
+                trial.step();
+            }
+            if trial.progress() == Progress::Running {
+                return Ok(None);
+            }
+        }
+        match self.runs.as_slice() {
+            [first] => {
+                let unreduced = first.on(&self.original)?;
+                self.runs.push(unreduced);
+            }
+            [first, _] => {
+                let shuffled = first.on_shuffled(&self.original, first.setup().seed)?;
+                self.runs.push(shuffled);
+            }
+            [first, unreduced, shuffled] => {
+                let mut noise = Noise::default();
+                noise.take(unreduced, shuffled);
+                return Ok(Some(TrialComparison::new(first, unreduced, &noise)));
+            }
+            _ => {}
+        }
+        Ok(None)
+    }
+
+    /// The part that is done, 0 to 1: the runs before, and of this one the way to its end where that is known.
+    pub fn fraction(&self) -> f32 {
+        let Some(trial) = self.runs.last() else { return 0.0 };
+        let all = trial.replayed_steps().map_or(trial.limit_s() / STEP, |all| all as f64);
+        let part = trial.simulation().steps() as f64 / all.max(1.0);
+        ((self.runs.len() - 1) as f64 + part.min(1.0)) as f32 / RUNS as f32
+    }
+}
+
+impl SweepRow {
+    /// Of a surface of so many triangles, of what came of each seed.
+    pub fn new(triangles: usize, found: &[TrialComparison]) -> Self {
+        let summaries = || found.iter().map(|comparison| &comparison.summaries[0]);
+        let largest = |all: &[f32]| f64::from(all.iter().copied().fold(0.0, f32::max));
+        Self {
+            triangles,
+            seeds: found.len(),
+            arrived: summaries().filter(|summary| summary.success).count(),
+            deviation_mm: Spread::of(found.iter().map(|comparison| largest(&comparison.deviation_mm)).collect()),
+            noise_mm: Spread::of(found.iter().map(|comparison| largest(&comparison.noise_mm)).collect()),
+            peak_force_n: Spread::of(summaries().map(|summary| summary.max_wall_force_n).collect()),
+            mean_force_n: Spread::of(summaries().map(|summary| summary.mean_wall_force_n).collect()),
+            time_s: Spread::of(summaries().filter(|summary| summary.success).map(|summary| summary.time_s).collect()),
+        }
+    }
+}
+
+/// The runs of the seeds 1 to `seeds`, on all cores. `None` when it was cancelled.
 ///
 /// # Errors
 /// When there is no way for the wire.
@@ -84,40 +172,18 @@ pub fn sweep(
     is_cancelled: impl Fn() -> bool + Sync + Send,
 ) -> Result<Option<SweepRow>, TrialError> {
     let course = Arc::new(Course::new(reduced, None, &mut setup.clone())?);
-    let finish = |trial: &mut Trial| {
-        while trial.progress() == Progress::Running && !is_cancelled() {
-            (0..SLICE).for_each(|_| trial.step());
+    let of_seed = |seed: u64| -> Result<Option<TrialComparison>, TrialError> {
+        let mut runs = SeedRuns::new(course.clone(), Setup { seed, ..setup.clone() }, original)?;
+        while !is_cancelled() {
+            if let Some(comparison) = runs.advance(SLICE)? {
+                return Ok(Some(comparison));
+            }
         }
-    };
-    let of_seed = |seed: u64| -> Result<TrialComparison, TrialError> {
-        let mut trial = Trial::new(course.clone(), Setup { seed, ..setup.clone() })?;
-        trial.set_autopilot(true);
-        finish(&mut trial);
-        let mut shuffled = trial.on_shuffled(reduced, seed)?;
-        finish(&mut shuffled);
-        let mut unreduced = trial.on(original)?;
-        finish(&mut unreduced);
-        let mut noise = Noise::default();
-        noise.take(&trial, &shuffled);
-        Ok(TrialComparison::new(&trial, &unreduced, &noise))
+        Ok(None)
     };
     let found: Result<Vec<_>, _> = parallel::map((1..=seeds).collect(), of_seed).into_iter().collect();
-    let found = found?;
-    if is_cancelled() {
-        return Ok(None);
-    }
-    let summaries = || found.iter().map(|comparison| &comparison.summaries[0]);
-    let largest = |all: &[f32]| f64::from(all.iter().copied().fold(0.0, f32::max));
-    Ok(Some(SweepRow {
-        triangles: reduced.triangles.len(),
-        seeds: found.len(),
-        arrived: summaries().filter(|summary| summary.success).count(),
-        deviation_mm: Spread::of(found.iter().map(|comparison| largest(&comparison.deviation_mm)).collect()),
-        noise_mm: Spread::of(found.iter().map(|comparison| largest(&comparison.noise_mm)).collect()),
-        peak_force_n: Spread::of(summaries().map(|summary| summary.max_wall_force_n).collect()),
-        mean_force_n: Spread::of(summaries().map(|summary| summary.mean_wall_force_n).collect()),
-        time_s: Spread::of(summaries().filter(|summary| summary.success).map(|summary| summary.time_s).collect()),
-    }))
+    let found: Option<Vec<_>> = found?.into_iter().collect();
+    Ok(found.map(|found| SweepRow::new(reduced.triangles.len(), &found)))
 }
 
 #[cfg(test)]

@@ -45,6 +45,8 @@ pub enum Action {
     Tables,
     /// Run them again.
     RepeatTables,
+    /// Try many seeds at each of their rates, beside the unreduced surface.
+    Sweep,
     /// Run them no further.
     CancelTables,
     /// Take the tables off; what runs goes on.
@@ -74,6 +76,7 @@ impl Action {
             | Self::Arm(_)
             | Self::Device(_)
             | Self::RepeatTables
+            | Self::Sweep
             | Self::CancelTables
             | Self::CloseTables => false,
         }

@@ -6,7 +6,7 @@ use super::action::{Action, DeviceAsk, Pick};
 use super::device::TrialState;
 use super::rumble::Felt;
 use super::state::{Coming, Comparing, Open, Preparing, Run, Stage, Subject, Trial, taken_from};
-use super::tables::Tables;
+use super::tables::{Next, SEEDS, Tables};
 use crate::app::document::Document;
 use crate::app::keys::Keys;
 use crate::app::platform::{Devices, Gamepad, Tone};
@@ -78,6 +78,7 @@ impl Trial {
             }
             Action::Tables => self.show_tables(document),
             Action::RepeatTables => self.tables.again(),
+            Action::Sweep => self.tables.sweep(),
             Action::CancelTables => self.cancel_tables(link),
             Action::CloseTables => self.tables.is_open = false,
             // Files, smoothing and devices are the app's.
@@ -217,13 +218,15 @@ impl Trial {
         }
     }
 
-    /// Asks for the next row of the tables, if there is one and none is being run.
+    /// Asks for the next row of the tables, or its sweep, if there is one and none is being run.
     pub(in crate::app) fn next_row(&mut self, link: &mut TrialLink) {
-        if let Some((mesh, sample, setup)) = self.tables.next() {
-            let id = self.next_number();
-            self.tables.started(id, mesh.triangles.len());
-            link.send(TrialCommand::Measure { id, mesh, sample, setup });
-        }
+        let id = self.number + 1;
+        let Some(next) = self.tables.next(id) else { return };
+        self.number = id;
+        link.send(match next {
+            Next::Measure(mesh, sample, setup) => TrialCommand::Measure { id, mesh, sample, setup },
+            Next::Sweep([mesh, original], setup) => TrialCommand::Sweep { id, mesh, original, setup, seeds: SEEDS },
+        });
     }
 
     /// Stops the tables; the trial stands.

@@ -67,6 +67,7 @@ impl Trial {
                 }
             }
             TrialEvent::Measured { id, summary } => self.tables.receive(id, summary),
+            TrialEvent::Swept { id, row } => self.tables.receive_sweep(id, row),
             TrialEvent::Failed { message } => self.problem = Some(message.into()),
         }
         None

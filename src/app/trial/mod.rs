@@ -4,7 +4,7 @@
 //!   `actions` by what the user asks for ([`Action`]). None of them draws. `mode`: it as a mode of the window.
 //! - `panel`, `setup`, `fluoroscope`, `readout`, `outcome`: the controls and the numbers; `drive`: the hand on the wire; `device`: a haptic
 //!   device's, `rumble` a gamepad's, `sound` a tone in place of either;
-//!   `tables`: the paper's Tables III and IV, `tables_window` what is seen of them.
+//!   `tables`: the paper's Tables III and IV and their sweep, `tables_window` and `sweep` what is seen of them.
 //! - `view`, `marks`, `plate`: the three views and what is written over them; `scene`: what stands in GPU memory; `carm`,
 //!   `peaks`, `largest`: the C-arm, the largest forces on the wall and of all.
 
@@ -28,6 +28,7 @@ mod scene;
 mod setup;
 mod sound;
 mod state;
+mod sweep;
 mod tables;
 mod tables_window;
 mod view;

@@ -3,11 +3,13 @@
 //! Frames a second are 1 / (time to compute 1/60 s of simulated time + time to draw one frame of 1280x800); both parts
 //! are shown.
 
-use egui::{Align, Grid, Layout, RichText, ScrollArea, Ui};
+use egui::{Align, Button, Grid, Layout, RichText, ScrollArea, Ui};
 
 use super::action::Action;
-use super::tables::{Outcome, Row, Tables};
+use super::sweep;
+use super::tables::{Outcome, Row, SEEDS, Tables};
 use crate::app::control::progress;
+use crate::app::theme;
 use crate::language::{Key, decimal, grouped};
 use crate::phantom::Sample;
 use crate::pipeline::paper::{TABLE_III, TABLE_IV, TrialRow};
@@ -40,14 +42,17 @@ pub(super) fn show(ui: &Ui, tables: &Tables, asked: &mut Vec<Action>) {
     }
     let mut is_open = true;
     let room = ui.ctx().content_rect().shrink(16.0);
+    let most = room.height() - 2.0 * theme::row(ui.ctx(), 32.0);
     egui::Window::new(say!("trial-tables"))
         .id(egui::Id::unique("trial tables"))
         .open(&mut is_open)
         .collapsible(false)
         .resizable(false)
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
-        .default_width((room.width() - 32.0).min(WIDTH))
-        .show(ui.ctx(), |ui| content(ui, tables, asked));
+        .default_size([(room.width() - 32.0).min(WIDTH), most])
+        .show(ui.ctx(), |ui| {
+            ScrollArea::vertical().max_height(most).show(ui, |ui| content(ui, tables, asked));
+        });
     if !is_open {
         asked.push(Action::CloseTables);
     }
@@ -63,14 +68,14 @@ fn content(ui: &mut Ui, tables: &Tables, asked: &mut Vec<Action>) {
     ScrollArea::horizontal().show(ui, |ui| {
         Grid::new("tables").num_columns(COLUMNS.len()).striped(true).spacing([14.0, 6.0]).show(ui, |ui| {
             for (i, (head, help)) in COLUMNS.into_iter().enumerate() {
-                aligned(ui, i, |ui| {
+                aligned(ui, (i, COLUMNS.len()), |ui| {
                     ui.label(RichText::new(head.say()).small().strong()).on_hover_text(help.say());
                 });
             }
             ui.end_row();
             for row in &tables.rows {
                 for (i, cell) in cells(row, tables.printed).into_iter().enumerate() {
-                    aligned(ui, i, |ui| {
+                    aligned(ui, (i, COLUMNS.len()), |ui| {
                         ui.label(cell);
                     });
                 }
@@ -93,14 +98,19 @@ fn content(ui: &mut Ui, tables: &Tables, asked: &mut Vec<Action>) {
             asked.push(Action::RepeatTables);
         }
         if ui.button(say!("trial-tables-copy")).on_hover_text(say!("trial-tables-copy-help")).clicked() {
-            ui.ctx().copy_text(text(tables));
+            ui.ctx().copy_text(text(tables) + &sweep::text(&tables.rows));
+        }
+        let sweep = ui.add_enabled(tables.can_sweep(), Button::new(say!("trial-sweep", seeds = SEEDS)));
+        if sweep.on_hover_text(say!("trial-sweep-help")).clicked() {
+            asked.push(Action::Sweep);
         }
     });
+    sweep::show(ui, &tables.rows);
 }
 
 /// To the right in its column; the last column has no right side of its own.
-fn aligned(ui: &mut Ui, column: usize, content: impl FnOnce(&mut Ui)) {
-    if column + 1 == COLUMNS.len() {
+pub(super) fn aligned(ui: &mut Ui, (column, columns): (usize, usize), content: impl FnOnce(&mut Ui)) {
+    if column + 1 == columns {
         content(ui);
     } else {
         ui.with_layout(Layout::right_to_left(Align::Center), content);
@@ -181,7 +191,7 @@ mod tests {
             stations: vec![station(6.0), station(16.0), StationResult::default()],
             ..Summary::default()
         };
-        let row = Row { rate: 90, draw_ms: Some(4.0), outcome: Outcome::Done(Box::new(summary)), ..Row::default() };
+        let row = Row { draw_ms: Some(4.0), outcome: Outcome::Done(Box::new(summary)), ..Row::new(90) };
         let cells = super::cells(&row, Some(Sample::Aorta));
         assert_eq!(cells[2], "100 (41)");
         assert_eq!(cells[3], "75 (18)");
@@ -192,7 +202,7 @@ mod tests {
 
     #[test]
     fn without_a_drawing_time_there_are_no_frames_a_second() {
-        let row = Row { rate: 95, outcome: Outcome::Done(Box::default()), ..Row::default() };
+        let row = Row { outcome: Outcome::Done(Box::default()), ..Row::new(95) };
         let cells = super::cells(&row, Some(Sample::Coronary));
         assert_eq!((cells[2].as_str(), cells[6].as_str()), ("– (32)", "–"));
         assert_eq!(cells[12], "–", "no time to a target that was not reached");

@@ -54,6 +54,11 @@ impl TrialEngine {
                     self.events.push_back(TrialEvent::refused(id, &error));
                 }
             }
+            TrialCommand::Sweep { id, mesh, original, setup, seeds } => {
+                if let Err(error) = self.jobs.sweep(id, [mesh, original], setup, seeds) {
+                    self.events.push_back(TrialEvent::refused(id, &error));
+                }
+            }
             TrialCommand::Cancel { id } => self.jobs.cancel(id),
             TrialCommand::Stop => {
                 self.shown = None;
@@ -104,6 +109,7 @@ impl TrialEngine {
             }
             TrialCommand::Start { .. }
             | TrialCommand::Measure { .. }
+            | TrialCommand::Sweep { .. }
             | TrialCommand::Cancel { .. }
             | TrialCommand::Stop => {}
         }

@@ -1,5 +1,5 @@
 //! Trials that run to their end as fast as they go, one after another and in slices, while the trial that is shown waits:
-//! measurements, and comparisons with the unreduced surface.
+//! measurements, comparisons with the unreduced surface, and sweeps of many seeds.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -13,13 +13,16 @@ use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::trial::STEP;
 use crate::trial::compare::{Noise, SHUFFLES, TrialComparison};
-use crate::trial::course::TrialError;
+use crate::trial::course::{Course, TrialError};
 use crate::trial::frame::Progress;
 use crate::trial::session::Trial;
 use crate::trial::setup::Setup;
+use crate::trial::sweep::{SeedRuns, SweepRow};
 
 /// Seconds between two words on how far a job is.
 const TELL: f64 = 0.5;
+/// Steps of a sweep between two looks at the clock.
+const STEPS: u32 = 20;
 
 /// Jobs, in the order in which they were asked for.
 #[derive(Default)]
@@ -27,14 +30,26 @@ pub(super) struct Jobs(VecDeque<Job>);
 
 struct Job {
     id: u64,
-    trial: Box<Trial>,
-    kind: Kind,
+    work: Work,
     told: Instant,
 }
 
-enum Kind {
-    Measure,
-    Compare(Comparing),
+enum Work {
+    Measure(Box<Trial>),
+    Compare(Box<Trial>, Comparing),
+    Sweep(Box<Sweeping>),
+}
+
+/// A sweep: seed by seed.
+struct Sweeping {
+    course: Arc<Course>,
+    setup: Setup,
+    /// Triangles of the reduced surface.
+    triangles: usize,
+    original: Arc<TriMesh>,
+    seeds: u64,
+    runs: SeedRuns,
+    found: Vec<TrialComparison>,
 }
 
 /// A comparison: the trial runs on the unreduced surface, then on the same in other orders.
@@ -68,19 +83,37 @@ impl Jobs {
         // The rows of a table are of one wire.
         let mut trial = start(mesh, sample, setup, false)?;
         trial.set_autopilot(true);
-        self.add(id, trial, Kind::Measure);
+        self.add(id, Work::Measure(Box::new(trial)));
+        Ok(())
+    }
+
+    /// Lets the autopilot run on `reduced` by each of the seeds 1 to `seeds`, and with the same input on `original`.
+    pub(super) fn sweep(
+        &mut self,
+        id: u64,
+        [reduced, original]: [Arc<TriMesh>; 2],
+        mut setup: Setup,
+        seeds: u64,
+    ) -> Result<(), TrialError> {
+        let course = Arc::new(Course::new(&reduced, None, &mut setup)?);
+        setup.next_wires.clear();
+        let runs = SeedRuns::new(course.clone(), Setup { seed: 1, ..setup.clone() }, &original)?;
+        let triangles = reduced.triangles.len();
+        let sweeping = Sweeping { course, setup, triangles, original, seeds, runs, found: Vec::new() };
+        self.add(id, Work::Sweep(Box::new(sweeping)));
         Ok(())
     }
 
     /// Lets the input of `shown` run on another surface.
     pub(super) fn compare(&mut self, id: u64, shown: &Trial, mesh: Arc<TriMesh>) -> Result<(), TrialError> {
         let trial = shown.on(&mesh)?;
-        self.add(id, trial, Kind::Compare(Comparing { mesh, original: None, noise: Noise::default(), orders: 0 }));
+        let comparing = Comparing { mesh, original: None, noise: Noise::default(), orders: 0 };
+        self.add(id, Work::Compare(Box::new(trial), comparing));
         Ok(())
     }
 
-    fn add(&mut self, id: u64, trial: Trial, kind: Kind) {
-        self.0.push_back(Job { id, trial: Box::new(trial), kind, told: Instant::now() });
+    fn add(&mut self, id: u64, work: Work) {
+        self.0.push_back(Job { id, work, told: Instant::now() });
     }
 
     /// Gives up the job of this number.
@@ -90,42 +123,59 @@ impl Jobs {
 
     /// Gives up comparing a trial that is no longer what it was.
     pub(super) fn drop_comparisons(&mut self) {
-        self.0.retain(|job| matches!(job.kind, Kind::Measure));
+        self.0.retain(|job| !matches!(job.work, Work::Compare(..)));
     }
 
     /// Goes on with the first for a slice; `shown` is the trial that is shown.
     pub(super) fn work(&mut self, slice: Duration, shown: Option<&Trial>, events: &mut VecDeque<TrialEvent>) {
         let Some(job) = self.0.front_mut() else { return };
         let since = Instant::now();
-        while job.trial.progress() == Progress::Running && since.elapsed() < slice {
-            job.trial.step();
-        }
-        if job.trial.progress() == Progress::Running {
+        let mut swept = None;
+        let is_over = match &mut job.work {
+            Work::Measure(trial) | Work::Compare(trial, _) => {
+                while trial.progress() == Progress::Running && since.elapsed() < slice {
+                    trial.step();
+                }
+                trial.progress() != Progress::Running
+            }
+            Work::Sweep(sweeping) => {
+                while swept.is_none() && since.elapsed() < slice {
+                    swept = sweeping.advance().transpose();
+                }
+                swept.is_some()
+            }
+        };
+        if !is_over {
             if job.told.elapsed().as_secs_f64() > TELL {
                 job.told = Instant::now();
                 events.push_back(TrialEvent::Busy { id: job.id, fraction: job.fraction() });
             }
             return;
         }
-        let Some(Job { id, trial, kind, told }) = self.0.pop_front() else { return };
-        match (kind, shown) {
-            (Kind::Measure, _) => {
+        let Some(Job { id, work, told }) = self.0.pop_front() else { return };
+        match (work, shown) {
+            (Work::Measure(trial), _) => {
                 events.push_back(TrialEvent::Measured { id, summary: Box::new(trial.summary()) });
             }
-            (Kind::Compare(mut comparing), Some(shown)) => {
+            (Work::Sweep(_), _) => match swept {
+                Some(Ok(row)) => events.push_back(TrialEvent::Swept { id, row }),
+                Some(Err(error)) => events.push_back(TrialEvent::refused(id, &error)),
+                None => {}
+            },
+            (Work::Compare(trial, mut comparing), Some(shown)) => {
                 if let Some(comparison) = comparing.ran(trial, shown) {
                     events.push_back(TrialEvent::Compared { id, comparison: Box::new(comparison) });
                     return;
                 }
                 match shown.on_shuffled(&comparing.mesh, comparing.orders + 1) {
                     Ok(trial) => {
-                        let kind = Kind::Compare(comparing);
-                        self.0.push_front(Job { id, trial: Box::new(trial), kind, told });
+                        let work = Work::Compare(Box::new(trial), comparing);
+                        self.0.push_front(Job { id, work, told });
                     }
                     Err(error) => events.push_back(TrialEvent::refused(id, &error)),
                 }
             }
-            (Kind::Compare(_), None) => {}
+            (Work::Compare(..), None) => {}
         }
     }
 }
@@ -133,16 +183,35 @@ impl Jobs {
 impl Job {
     /// The part that is done.
     fn fraction(&self) -> f32 {
-        let steps = self.trial.simulation().steps() as f64;
-        let all = self.trial.replayed_steps().map_or(self.trial.limit_s() / STEP, |all| all as f64);
-        let part = steps / all.max(1.0);
-        match &self.kind {
-            Kind::Measure => part as f32,
-            Kind::Compare(comparing) => {
+        let of = |trial: &Trial| {
+            let all = trial.replayed_steps().map_or(trial.limit_s() / STEP, |all| all as f64);
+            trial.simulation().steps() as f64 / all.max(1.0)
+        };
+        match &self.work {
+            Work::Measure(trial) => of(trial) as f32,
+            Work::Compare(trial, comparing) => {
                 let before = comparing.orders + u64::from(comparing.original.is_some());
-                ((before as f64 + part) / (SHUFFLES + 1) as f64) as f32
+                ((before as f64 + of(trial)) / (SHUFFLES + 1) as f64) as f32
+            }
+            Work::Sweep(sweeping) => {
+                (sweeping.found.len() as f32 + sweeping.runs.fraction()) / sweeping.seeds.max(1) as f32
             }
         }
+    }
+}
+
+impl Sweeping {
+    /// Goes on for some steps. Gives the row once no seed is left.
+    fn advance(&mut self) -> Result<Option<SweepRow>, TrialError> {
+        let Some(comparison) = self.runs.advance(STEPS)? else { return Ok(None) };
+        self.found.push(comparison);
+        let seed = self.found.len() as u64 + 1;
+        if seed > self.seeds {
+            return Ok(Some(SweepRow::new(self.triangles, &self.found)));
+        }
+        let setup = Setup { seed, ..self.setup.clone() };
+        self.runs = SeedRuns::new(self.course.clone(), setup, &self.original)?;
+        Ok(None)
     }
 }
 

@@ -18,6 +18,7 @@ use crate::trial::frame::{Frame, Touch};
 use crate::trial::route::{PlaceName, Route, RouteError, RoutePoint};
 use crate::trial::setup::{Entry, Input, Setup};
 use crate::trial::summary::Summary;
+use crate::trial::sweep::SweepRow;
 
 /// The app's end of the line to a trial.
 pub type TrialLink = dyn Link<TrialCommand, TrialEvent>;
@@ -89,12 +90,27 @@ pub enum TrialCommand {
         /// All else.
         setup: Setup,
     },
-    /// Gives up the comparison or measurement of this number; the trial stands.
+    /// Runs the autopilot on a surface by the seeds 1 to `seeds`, and with the same input on the unreduced surface.
+    Sweep {
+        /// Comes back with what is told of it.
+        id: u64,
+        /// The surface.
+        #[serde(with = "surface")]
+        mesh: Arc<TriMesh>,
+        /// The one that was not reduced.
+        #[serde(with = "surface")]
+        original: Arc<TriMesh>,
+        /// All else.
+        setup: Setup,
+        /// How many.
+        seeds: u64,
+    },
+    /// Gives up the comparison, measurement or sweep of this number; the trial stands.
     Cancel {
         /// That of its command.
         id: u64,
     },
-    /// Ends the trial and lets go of its surface; measurements go on.
+    /// Ends the trial and lets go of its surface; measurements and sweeps go on.
     Stop,
 }
 
@@ -233,7 +249,7 @@ pub enum TrialEvent {
         /// What came of it.
         comparison: Box<TrialComparison>,
     },
-    /// How far a comparison or a measurement is.
+    /// How far a comparison, a measurement or a sweep is.
     Busy {
         /// That of the command.
         id: u64,
@@ -246,6 +262,13 @@ pub enum TrialEvent {
         id: u64,
         /// What came of it.
         summary: Box<Summary>,
+    },
+    /// What `Sweep` was asked for.
+    Swept {
+        /// That of the command.
+        id: u64,
+        /// What came of it.
+        row: SweepRow,
     },
     /// Something else could not be done, and why.
     Failed {
@@ -301,6 +324,7 @@ mod tests {
     use crate::trial::report::{StepCounts, StepKind, StepReport};
     use crate::trial::route::WayEnd;
     use crate::trial::summary::TrialEnd;
+    use crate::trial::sweep::Spread;
 
     #[test]
     fn every_command_comes_through_unchanged() {
@@ -318,7 +342,8 @@ mod tests {
             TrialCommand::Save,
             TrialCommand::Replay { id, csv: Arc::new(b"time_s\n0\n".to_vec()) },
             TrialCommand::Compare { id, mesh: mesh.clone() },
-            TrialCommand::Measure { id, mesh, sample: None, setup },
+            TrialCommand::Measure { id, mesh: mesh.clone(), sample: None, setup: setup.clone() },
+            TrialCommand::Sweep { id, original: mesh.clone(), mesh, setup, seeds: 10 },
             TrialCommand::Cancel { id },
             TrialCommand::Stop,
         ];
@@ -356,6 +381,8 @@ mod tests {
             ..TrialComparison::default()
         };
         let summary = Box::new(Summary { success: true, friction: [0.06, 0.04], ..Summary::default() });
+        let spread = Spread { median: 0.5, largest: 1.25 };
+        let row = SweepRow { seeds: 10, arrived: 9, deviation_mm: Some(spread), ..SweepRow::default() };
         let message = "no way".to_owned();
         let events = [
             TrialEvent::Preparing { id: 1, fraction: 0.5 },
@@ -368,6 +395,7 @@ mod tests {
             TrialEvent::Compared { id: 2, comparison: Box::new(comparison) },
             TrialEvent::Busy { id: 2, fraction: 0.25 },
             TrialEvent::Measured { id: 3, summary },
+            TrialEvent::Swept { id: 3, row },
             TrialEvent::Failed { message },
         ];
         for event in events {

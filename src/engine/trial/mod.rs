@@ -4,7 +4,8 @@
 //! - `shown`: the trial that is shown: its frames, and the hand on its wire. `grasp`: a haptic device's hand. `pace`: how
 //!   many steps the clock asks for.
 //! - `start`: a surface and a setup made into a trial. `jobs`: trials that run to their end as fast as they go, in slices:
-//!   measurements and comparisons.
+//!   measurements,
+//!   comparisons and sweeps.
 
 mod engine;
 mod haptic_channel;

@@ -76,6 +76,32 @@ fn a_comparison_that_is_cancelled_leaves_the_trial_as_it_stands() {
 }
 
 #[test]
+fn a_sweep_tells_how_far_it_is_and_all_seeds_and_can_be_cancelled() {
+    let mesh = aorta();
+    let mut engine = TrialEngine::new();
+    let (sample, mut setup) = (Some(Sample::Aorta), Setup::default());
+    // Entry and target are the sample's.
+    crate::trial::course::Course::new(&mesh, sample, &mut setup).unwrap();
+    let sweep =
+        |id| TrialCommand::Sweep { id, mesh: mesh.clone(), original: mesh.clone(), setup: setup.clone(), seeds: 2 };
+    engine.handle(sweep(4));
+    engine.advance(0.0, SLICE);
+    engine.handle(TrialCommand::Cancel { id: 4 });
+    assert!(engine.jobs.is_empty() && events(&mut engine).is_empty());
+    engine.handle(sweep(5));
+    while engine.advance(0.0, Duration::from_secs(1)).is_some() {}
+    let mut told = events(&mut engine);
+    let Some(TrialEvent::Swept { id: 5, row }) = told.pop() else { panic!("{told:?}") };
+    assert_eq!((row.seeds, row.arrived, row.triangles), (2, 2, mesh.triangles.len()));
+    assert_eq!(row.deviation_mm.map(|spread| spread.largest), Some(0.0), "one surface beside itself");
+    let fractions = told.iter().map(|event| match event {
+        TrialEvent::Busy { id: 5, fraction } => *fraction,
+        other => panic!("{other:?}"),
+    });
+    assert!(fractions.clone().is_sorted() && fractions.clone().all(|part| (0.0..=1.0).contains(&part)));
+}
+
+#[test]
 fn time_runs_from_the_first_input_on_and_a_restart_is_by_hand() {
     let mut engine = TrialEngine::new();
     let (sample, setup) = (Some(Sample::Aorta), Setup::default());

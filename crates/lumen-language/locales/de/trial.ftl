@@ -345,3 +345,19 @@ trial-log-roll = die Drehung ist keine Zahl
 trial-log-wire = der Draht ist keiner von denen des Aufbaus
 trial-log-order = der Schritt liegt nicht nach dem vorigen
 trial-log-columns = die Spalten sind nicht die eines Protokolls
+
+# The sweep below the tables.
+trial-sweep = { $seeds } Versuche je Rate
+trial-sweep-help = Was die Reduktion mit dem Draht macht: der Autopilot mit vielen Startwerten bei jeder Rate, und dieselbe Eingabe auf der unreduzierten Oberfläche
+trial-sweep-what = Median und größter Wert der Versuche.
+# Beside the plot, in the colours of its curves.
+trial-sweep-largest = Abweichung, größte
+trial-sweep-median = Median
+trial-sweep-noise = Rauschen, größtes
+trial-sweep-plot = Abweichung der Spitze von der unreduzierten Oberfläche je nach Reduktion
+trial-sweep-arrived = { $arrived } von { $seeds }
+trial-column-arrive = Kommen an
+trial-column-arrive-help = Versuche, in denen der Draht sein Ziel erreichte
+trial-column-deviation = Abweichung, mm
+trial-column-deviation-help = Zwischen der Spitze hier und auf der unreduzierten Oberfläche bei derselben Eingabe
+trial-column-noise = Rauschen, mm

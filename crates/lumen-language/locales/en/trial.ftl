@@ -290,3 +290,19 @@ trial-column-unbalanced = Unbalanced, %
 trial-column-unbalanced-help = Steps whose forces were not in balance; the forces are those of the others
 trial-column-time = Time, s
 trial-column-time-help = Simulated time to the target
+
+# The sweep below the tables.
+trial-sweep = { $seeds } seeds a rate
+trial-sweep-help = What reduction does to the wire: the autopilot by many seeds at each rate, and the same input on the unreduced surface
+trial-sweep-what = Median and largest of the seeds.
+# Beside the plot, in the colours of its curves.
+trial-sweep-largest = deviation, largest
+trial-sweep-median = median
+trial-sweep-noise = noise, largest
+trial-sweep-plot = Deviation of the tip from the unreduced surface by reduction
+trial-sweep-arrived = { $arrived } of { $seeds }
+trial-column-arrive = Arrive
+trial-column-arrive-help = Seeds by which the wire reached its target
+trial-column-deviation = Deviation, mm
+trial-column-deviation-help = Between the tip here and on the unreduced surface by the same input
+trial-column-noise = Noise, mm

@@ -345,3 +345,19 @@ trial-log-roll = la rotation n'est pas un nombre
 trial-log-wire = le guide n'est aucun de ceux du montage
 trial-log-order = le pas n'est pas après le précédent
 trial-log-columns = les colonnes ne sont pas celles d'un journal
+
+# The sweep below the tables.
+trial-sweep = { $seeds } essais par taux
+trial-sweep-help = Ce que la réduction fait au guide : le pilote automatique avec plusieurs graines à chaque taux, et la même commande sur la surface non réduite
+trial-sweep-what = Médiane et maximum des essais.
+# Beside the plot, in the colours of its curves.
+trial-sweep-largest = écart, maximum
+trial-sweep-median = médiane
+trial-sweep-noise = bruit, maximum
+trial-sweep-plot = Écart de la pointe à la surface non réduite selon la réduction
+trial-sweep-arrived = { $arrived } sur { $seeds }
+trial-column-arrive = Arrivent
+trial-column-arrive-help = Essais dans lesquels le guide a atteint sa cible
+trial-column-deviation = Écart, mm
+trial-column-deviation-help = Entre la pointe ici et sur la surface non réduite avec la même commande
+trial-column-noise = Bruit, mm

@@ -9,6 +9,7 @@ use lumen::phantom::{Sample, generate};
 use lumen::trial::setup::Entry;
 use lumen::trial::stopwatch::StationResult;
 use lumen::trial::summary::Summary;
+use lumen::trial::sweep::{Spread, SweepRow};
 use lumen_ui_tests::told::told;
 use lumen_ui_tests::told::{
     DESKTOP, asked, at_entry, frame, id_of_start, now, on, press, put_on, ready, refused, retarget, says, start, tell,
@@ -122,6 +123,50 @@ fn the_tables_run_one_rate_after_another_and_can_be_cancelled() {
     press(&mut harness, "Run again");
     harness.run_steps(3);
     assert!(matches!(&asked(&memory)[..], [TrialCommand::Measure { .. }]));
+}
+
+#[test]
+fn a_sweep_follows_the_rows_with_their_wire_beside_the_unreduced_surface() {
+    let (mut harness, memory) = app_in_full(DESKTOP);
+    settle(&mut harness);
+    press(&mut harness, "Tables III and IV");
+    let target = Some([4.0, 5.0, 6.0]);
+    let summary = Summary { success: true, wire: "stiff".to_owned(), target, ..Summary::default() };
+    for _ in 0..5 {
+        harness.run_steps(3);
+        let Some(TrialCommand::Measure { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
+        tell(&mut harness, &memory, [TrialEvent::Measured { id, summary: Box::new(summary.clone()) }]);
+    }
+    harness.run_steps(3);
+    assert_eq!(asked(&memory), []);
+    let spread = |largest| Some(Spread { median: largest / 2.0, largest });
+    press(&mut harness, "10 seeds a rate");
+    for (row, most) in [66_876, 37_153, 18_576].into_iter().enumerate() {
+        harness.run_steps(3);
+        let commands = asked(&memory);
+        let [TrialCommand::Sweep { id, mesh, original, setup, seeds: 10 }] = &commands[..] else {
+            panic!("{commands:?}")
+        };
+        assert_eq!((setup.wire.name.as_str(), setup.target, setup.proposes_wire), ("stiff", target, false));
+        assert_eq!(original.triangles.len(), 74_307);
+        assert!((most - 2..=most).contains(&mesh.triangles.len()), "{}", mesh.triangles.len());
+        let (deviation_mm, noise_mm) = (spread(1.25), spread(0.375));
+        let told = match row {
+            1 => refused(*id, "The lumen is too thin.", true),
+            _ => TrialEvent::Swept {
+                id: *id,
+                row: SweepRow { seeds: 10, arrived: 9, deviation_mm, noise_mm, ..SweepRow::default() },
+            },
+        };
+        tell(&mut harness, &memory, [told]);
+    }
+    assert!(says(&harness, "9 of 10") && says(&harness, "1.25") && says(&harness, "50 %: The lumen is too thin."));
+    harness.run_steps(3);
+    let Some(TrialCommand::Sweep { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
+    press(&mut harness, "Cancel tables");
+    assert_eq!(asked(&memory), [TrialCommand::Cancel { id }]);
+    harness.run_steps(3);
+    assert!(asked(&memory).is_empty() && says(&harness, "9 of 10"), "what is known stands");
 }
 
 #[test]
