@@ -1,0 +1,304 @@
+//! Flat caps: the plane discs that close the ends of vessels, as models for flow have them.
+//!
+//! A cap is a connected set of triangles in one plane whose rim is one loop with a crease that stands out everywhere, and
+//! behind which the vessel goes on: cut by planes half a radius and a whole radius further in, what is joined to the rim is
+//! as wide as the cap; and the rim is round. So neither the steps and ends of a voxel surface nor the faces of a box are caps. Caps that touch are none.
+
+use glam::DVec3;
+
+use super::{Topology, TriMesh, cut};
+
+/// Cosine of the angle up to which triangles belong to the plane of a cap's largest: 2 degrees.
+const FLAT: f64 = 0.999_390_827_019_095_8;
+/// Cosine of the least crease between cap and wall: 25 degrees.
+const CREASE: f64 = 0.906_307_787_036_65;
+/// The part of the rim's length that has such a crease.
+const CREASED: f64 = 0.95;
+/// Vertices of the least rim. The ends of the thinnest vessels of a mask are flat and round, too: most have 6 to 10.
+const LEAST_RIM: usize = 12;
+/// The bends of a rim sum up to at most so many full turns: those of a rim of voxels to 2 and more.
+const TURNS: f64 = 1.6;
+/// How far in the vessel is cut, in radii of the cap.
+const DEPTHS: [f64; 2] = [0.5, 1.0];
+/// How far from the cap's axis the wall is followed, in radii of the cap.
+const ASIDE: f64 = 4.0;
+/// By how much the vessel's section there may be smaller or larger than the cap.
+const WIDER: f64 = 2.2;
+/// Off the plane, in radii of the cap, a corner of a cap lies at most.
+const OFF_PLANE: f64 = 0.01;
+
+/// A flat end of a closed vessel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlatCap {
+    /// Its triangles, in ascending order.
+    pub triangles: Vec<u32>,
+    /// The vertices around it, counter-clockwise seen from outside.
+    pub rim: Vec<u32>,
+    /// The middle of its area, in mm.
+    pub centre: DVec3,
+    /// Its unit normal, out of the vessel.
+    pub normal: DVec3,
+    /// Its area in mm2.
+    pub area_mm2: f64,
+}
+
+impl FlatCap {
+    /// The radius of a circle of its area, in mm.
+    pub fn radius_mm(&self) -> f64 {
+        libm::sqrt(self.area_mm2 / std::f64::consts::PI)
+    }
+}
+
+/// The flat caps of a surface whose triangles have the adjacency `topology`, by their first triangle.
+pub fn flat_caps(mesh: &TriMesh, topology: &Topology) -> Vec<FlatCap> {
+    let search = Search::new(mesh, topology);
+    let mut caps: Vec<FlatCap> = search.regions().filter_map(|region| search.cap(region)).collect();
+    let mut owner = vec![u32::MAX; mesh.positions.len()];
+    let mut touches = vec![false; caps.len()];
+    for (i, cap) in caps.iter().enumerate() {
+        for &v in &cap.rim {
+            let other = std::mem::replace(&mut owner[v as usize], i as u32);
+            if other != u32::MAX {
+                (touches[i], touches[other as usize]) = (true, true);
+            }
+        }
+    }
+    let mut touches = touches.into_iter();
+    caps.retain(|_| !touches.next().unwrap_or(false));
+    caps
+}
+
+/// Twice the area of a closed polygon about `normal`, counter-clockwise positive: the length along it of its vector area.
+pub fn polygon_area(points: impl ExactSizeIterator<Item = DVec3> + Clone, normal: DVec3) -> f64 {
+    let Some(first) = points.clone().next() else { return 0.0 };
+    let pairs = points.clone().zip(points.skip(1));
+    pairs.map(|(a, b)| (a - first).cross(b - first).dot(normal)).sum::<f64>() / 2.0
+}
+
+/// The search for caps in one surface.
+struct Search<'a> {
+    mesh: &'a TriMesh,
+    topology: &'a Topology,
+    /// Unit normals; 0 where there is none.
+    normals: Vec<DVec3>,
+    /// The region of each triangle.
+    regions: Vec<u32>,
+    /// The triangles of each region of at least a few, in ascending order.
+    found: Vec<Vec<u32>>,
+}
+
+impl<'a> Search<'a> {
+    fn new(mesh: &'a TriMesh, topology: &'a Topology) -> Self {
+        let normal = |t: usize| {
+            let [a, b, c] = mesh.corners(t).map(|p| p.as_dvec3());
+            (b - a).cross(c - a).normalize_or_zero()
+        };
+        let normals: Vec<DVec3> = (0..mesh.triangles.len()).map(normal).collect();
+        let mut search =
+            Self { mesh, topology, normals, regions: vec![u32::MAX; mesh.triangles.len()], found: Vec::new() };
+        search.grow();
+        search
+    }
+
+    /// The triangle on the other side of each edge of `t`; `None` where there is none, or more than one.
+    fn across(&self, t: u32) -> [Option<u32>; 3] {
+        let [a, b, c] = self.mesh.triangles[t as usize];
+        [[a, b], [b, c], [c, a]].map(|[a, b]| {
+            let mut others = self.topology.triangles_on(&self.mesh.triangles, a, b).filter(|&other| other != t);
+            others.next().filter(|_| others.next().is_none())
+        })
+    }
+
+    /// Groups triangles that lie in one plane with the first of their group.
+    fn grow(&mut self) {
+        let mut stack = Vec::new();
+        for seed in 0..self.mesh.triangles.len() as u32 {
+            if self.regions[seed as usize] != u32::MAX || self.normals[seed as usize] == DVec3::ZERO {
+                continue;
+            }
+            let (number, normal) = (self.found.len() as u32, self.normals[seed as usize]);
+            let mut members = vec![seed];
+            self.regions[seed as usize] = number;
+            stack.push(seed);
+            while let Some(t) = stack.pop() {
+                for other in self.across(t).into_iter().flatten() {
+                    if self.regions[other as usize] == u32::MAX && self.normals[other as usize].dot(normal) > FLAT {
+                        self.regions[other as usize] = number;
+                        members.push(other);
+                        stack.push(other);
+                    }
+                }
+            }
+            members.sort_unstable();
+            self.found.push(members);
+        }
+    }
+
+    fn regions(&self) -> impl Iterator<Item = &Vec<u32>> {
+        // A disc of so many rim vertices has at least two triangles fewer.
+        self.found.iter().filter(|members| members.len() + 2 >= LEAST_RIM)
+    }
+
+    /// The region as a cap, if it is one.
+    fn cap(&self, region: &[u32]) -> Option<FlatCap> {
+        let number = self.regions[region[0] as usize];
+        let corner = |v: u32| self.mesh.positions[v as usize].as_dvec3();
+        let (mut area, mut moment, mut normal) = (0.0, DVec3::ZERO, DVec3::ZERO);
+        let mut edges: Vec<[u32; 2]> = Vec::new();
+        let (mut length, mut creased) = (0.0, 0.0);
+        for &t in region {
+            let triangle = self.mesh.triangles[t as usize];
+            let [a, b, c] = triangle.map(corner);
+            let vector = (b - a).cross(c - a) / 2.0;
+            area += vector.length();
+            moment += (a + b + c) / 3.0 * vector.length();
+            normal += vector;
+            for (i, other) in self.across(t).into_iter().enumerate() {
+                let other = other?;
+                if self.regions[other as usize] == number {
+                    continue;
+                }
+                let [from, to] = [triangle[i], triangle[(i + 1) % 3]];
+                edges.push([from, to]);
+                let away = corner(from).distance(corner(to));
+                length += away;
+                let apex = self.mesh.triangles[other as usize].into_iter().find(|&v| v != from && v != to)?;
+                let is_behind = (corner(apex) - corner(from)).dot(self.normals[t as usize]) < 0.0;
+                if is_behind && self.normals[other as usize].dot(self.normals[t as usize]) < CREASE {
+                    creased += away;
+                }
+            }
+        }
+        if edges.len() < LEAST_RIM || creased < CREASED * length || area <= 0.0 {
+            return None;
+        }
+        let (centre, normal) = (moment / area, normal.normalize_or_zero());
+        let cap = FlatCap { triangles: region.to_vec(), rim: rim(edges)?, centre, normal, area_mm2: area };
+        let off = |&v: &u32| (corner(v) - centre).dot(normal).abs() > OFF_PLANE * cap.radius_mm();
+        (!cap.rim.iter().any(off) && self.turns(&cap.rim) < TURNS && self.closes_a_vessel(&cap)).then_some(cap)
+    }
+
+    /// The sum of a rim's bends, in full turns: 1 where it is convex.
+    fn turns(&self, rim: &[u32]) -> f64 {
+        let corner = |i: usize| self.mesh.positions[rim[i % rim.len()] as usize].as_dvec3();
+        let bend = |i: usize| {
+            let ways = [corner(i + 1) - corner(i), corner(i + 2) - corner(i + 1)];
+            let [before, after] = ways.map(DVec3::normalize_or_zero);
+            libm::acos(before.dot(after).clamp(-1.0, 1.0))
+        };
+        (0..rim.len()).map(bend).sum::<f64>() / std::f64::consts::TAU
+    }
+
+    /// Whether a vessel of the cap's width goes on behind it.
+    fn closes_a_vessel(&self, cap: &FlatCap) -> bool {
+        let radius = cap.radius_mm();
+        let deepest = DEPTHS[DEPTHS.len() - 1] * radius;
+        let inwards = |v: u32| cap.centre - self.mesh.positions[v as usize].as_dvec3();
+        let depth = |v: u32| inwards(v).dot(cap.normal);
+        let aside = |v: u32| inwards(v).reject_from_normalized(cap.normal).length();
+        // The wall from the rim on, as far as the deepest cut.
+        let mut is_seen: std::collections::BTreeSet<u32> = cap.triangles.iter().copied().collect();
+        let mut stack = cap.triangles.clone();
+        let mut wall = Vec::new();
+        while let Some(t) = stack.pop() {
+            for other in self.across(t).into_iter().flatten() {
+                let triangle = self.mesh.triangles[other as usize];
+                let depths = triangle.map(depth);
+                let is_near = depths.iter().any(|&depth| depth < deepest)
+                    && depths.iter().any(|&depth| depth > -0.1 * radius)
+                    && triangle.iter().any(|&v| aside(v) < ASIDE * radius);
+                if is_near && is_seen.insert(other) {
+                    wall.push(other);
+                    stack.push(other);
+                }
+            }
+        }
+        wall.sort_unstable();
+        let wall: Vec<[u32; 3]> = wall.into_iter().map(|t| self.mesh.triangles[t as usize]).collect();
+        DEPTHS.iter().all(|depth| {
+            let at = cap.centre - cap.normal * depth * radius;
+            let outlines = cut(&self.mesh.positions, &wall, at, cap.normal);
+            let area = |outline: &super::Outline| polygon_area(outline.points.iter().copied(), cap.normal);
+            let largest = outlines.iter().filter(|outline| outline.is_closed).map(area).fold(0.0, f64::max);
+            largest > cap.area_mm2 / WIDER && largest < cap.area_mm2 * WIDER
+        })
+    }
+}
+
+/// Directed edges as one loop through each of their vertices once, from the least on; `None` where they are none.
+fn rim(mut edges: Vec<[u32; 2]>) -> Option<Vec<u32>> {
+    edges.sort_unstable();
+    if edges.windows(2).any(|pair| pair[0][0] == pair[1][0]) {
+        return None;
+    }
+    let mut rim = vec![edges[0][0]];
+    let mut at = 0;
+    loop {
+        let next = edges[at][1];
+        if next == rim[0] {
+            break;
+        }
+        if rim.len() >= edges.len() {
+            return None;
+        }
+        rim.push(next);
+        at = edges.binary_search_by_key(&next, |edge| edge[0]).ok()?;
+    }
+    (rim.len() == edges.len()).then_some(rim)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::{capped, icosphere, isosurface, tube};
+    use glam::Vec3;
+
+    fn found(mesh: &TriMesh) -> Vec<FlatCap> {
+        flat_caps(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles))
+    }
+
+    #[test]
+    fn both_ends_of_a_closed_tube_are_caps_with_their_plane_and_area() {
+        for sides in [12, 24, 96] {
+            let caps = found(&capped(sides, 30, 30.0, 2.0));
+            let polygon = f64::from(sides) * 2.0 * (std::f64::consts::TAU / f64::from(sides)).sin();
+            assert_eq!(caps.len(), 2, "{sides}");
+            for cap in &caps {
+                assert_eq!((cap.rim.len(), cap.triangles.len()), (sides as usize, sides as usize));
+                assert!((cap.area_mm2 / polygon - 1.0).abs() < 1e-5 && cap.normal.z.abs() > 0.999_999, "{cap:?}");
+                assert!(cap.normal.z * (cap.centre.z - 15.0) > 0.0, "out of the vessel: {cap:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn spheres_open_tubes_boxes_and_stumps_have_none() {
+        let boxed = isosurface(DVec3::splat(-6.0), DVec3::splat(6.0), 1.0, |p| 4.2 - p.abs().max_element());
+        for (what, mesh) in [
+            ("sphere", icosphere(4, 5.0, Vec3::ZERO)),
+            ("open tube", tube(24, 20, 20.0, |_| 2.0)),
+            ("box", boxed),
+            ("disc", capped(24, 2, 0.5, 2.0)),
+            ("nothing", TriMesh::default()),
+        ] {
+            assert!(found(&mesh).is_empty(), "{what}");
+        }
+    }
+
+    #[test]
+    fn the_steps_of_a_binary_mask_are_no_caps() {
+        // A vessel along z of 4 mm, in voxels of 0.5 mm.
+        let inside = |p: DVec3| if p.truncate().length() < 4.0 && p.z.abs() < 9.9 { 0.5 } else { -0.5 };
+        let caps = found(&isosurface(DVec3::new(-6.0, -6.0, -12.0), DVec3::new(6.0, 6.0, 12.0), 0.5, inside));
+        assert!(caps.is_empty(), "{}", caps.len());
+    }
+
+    #[test]
+    fn an_end_that_is_cut_at_a_slant_is_a_cap() {
+        let mut mesh = capped(24, 40, 40.0, 2.0);
+        mesh.positions.iter_mut().for_each(|p| p.z += 0.6 * p.x);
+        let caps = found(&mesh);
+        assert_eq!(caps.len(), 2);
+        assert!(caps.iter().all(|cap| (cap.normal.x.abs() - 0.6 / 1.36_f64.sqrt()).abs() < 1e-5), "{caps:?}");
+    }
+}
