@@ -68,8 +68,8 @@ pub fn flat_caps(mesh: &TriMesh, topology: &Topology) -> Vec<FlatCap> {
     caps
 }
 
-/// Twice the area of a closed polygon about `normal`, counter-clockwise positive: the length along it of its vector area.
-pub fn polygon_area(points: impl ExactSizeIterator<Item = DVec3> + Clone, normal: DVec3) -> f64 {
+/// The area of a closed polygon seen against the unit `normal`, positive where it runs counter-clockwise.
+pub fn polygon_area(points: impl Iterator<Item = DVec3> + Clone, normal: DVec3) -> f64 {
     let Some(first) = points.clone().next() else { return 0.0 };
     let pairs = points.clone().zip(points.skip(1));
     pairs.map(|(a, b)| (a - first).cross(b - first).dot(normal)).sum::<f64>() / 2.0

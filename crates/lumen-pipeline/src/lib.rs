@@ -2,6 +2,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
 
 pub mod bound;
+pub mod caps;
 pub mod carry;
 pub mod classes;
 pub mod connectivity;

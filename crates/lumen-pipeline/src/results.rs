@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use super::caps::Capped;
 use super::bound::Bound;
 use super::connectivity::Connectivity;
 use super::deviation::Comparison;
@@ -127,6 +128,8 @@ pub struct Surface {
     pub loops: Option<Vec<Vec<u32>>>,
     /// Its area and volume.
     pub measures: Measures,
+    /// Its flat caps, if it has some.
+    pub caps: Option<Box<Capped>>,
 }
 
 /// The smoothed surface: the triangles of the kept one.

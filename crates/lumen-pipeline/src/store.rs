@@ -67,7 +67,7 @@ impl Store {
     /// The least pass bands of the kept surface, if they are known.
     pub(super) fn known_bands(&self) -> Option<&Arc<[f32]>> {
         let (kept, (of, bands)) = (self.now.kept.as_ref()?, self.bands.as_ref()?);
-        Arc::ptr_eq(of, kept).then_some(bands)
+        Arc::ptr_eq(of, &kept.smoothed_as(&self.now.settings.smoothing)).then_some(bands)
     }
 
     /// Whether there are no terms that suit the settings, though they would fit.

@@ -3,6 +3,7 @@
 use glam::Vec3A;
 
 use super::borders::{Border, border_of, mark};
+use super::cap_areas::CapAreas;
 use super::guard::{Guard, Planned};
 use super::method::{Candidate, Judged, Method};
 use super::one_ring::{MAX_AROUND, OneRing};
@@ -53,6 +54,7 @@ pub(super) struct Surface {
     pub(super) rings: Rings,
     pub(super) method: Box<dyn Method + Send>,
     pub(super) guard: Guard,
+    pub(super) caps: CapAreas,
     /// By what the distance of each slot counts (`weights.rs`); empty where all count alike.
     pub(super) weights: Vec<f32>,
     pub(super) star: OneRing,
@@ -66,6 +68,7 @@ impl Surface {
             rings: Rings::new(mesh),
             method,
             guard: Guard::default(),
+            caps: CapAreas::default(),
             weights: Vec::new(),
             star: OneRing::new(),
             other: OneRing::new(),
@@ -165,7 +168,8 @@ impl Surface {
                 if key > threshold {
                     return Err(Refusal::Later(key));
                 }
-                if self.is_clear(mesh, v, u, &candidate, at) {
+                let end = self.end(v, u, &candidate);
+                if self.caps.allow(&self.rings, v, u, end) && self.is_clear(mesh, v, u, &candidate, at) {
                     return Ok((candidate, tip));
                 }
                 stuck = Stuck::Geometry;
@@ -250,10 +254,15 @@ impl Surface {
         }
     }
 
+    /// Where `u` is once `v` has gone to it.
+    fn end(&self, v: u32, u: u32, candidate: &Candidate) -> Vec3A {
+        candidate.place.map_or(self.rings.at(u), |place| self.rings.at(v) + place)
+    }
+
     /// Whether no triangle would run into another.
     fn is_clear(&mut self, mesh: &TriMesh, v: u32, u: u32, candidate: &Candidate, at: Option<usize>) -> bool {
         let other = at.map(|at| (&self.other, at));
-        let end = candidate.place.map_or(self.rings.at(u), |place| self.rings.at(v) + place);
+        let end = self.end(v, u, candidate);
         let planned = Planned { v, u, to: candidate.to, end, star: &self.star, other };
         self.guard.allows(&self.rings, mesh, &planned)
     }
@@ -263,6 +272,7 @@ impl Surface {
         let u = neighbour(self.star.entries()[candidate.to]);
         let way = self.star.edge(candidate.to);
         self.method.merge(v, u, way, candidate.place, tip);
+        self.caps.spend(&self.rings, v, u, self.end(v, u, candidate));
         let end = candidate.place.map(|place| self.rings.at(v) + place);
         self.rings.collapse(v, u);
         end.map(|end| self.rings.renew(u, end))
@@ -273,6 +283,7 @@ impl Surface {
         let kept = self.rings.compact();
         self.method.compact(&kept);
         self.guard.restart(&self.rings);
+        self.caps.compact(&kept);
         if !self.weights.is_empty() {
             self.weights = gather(&self.weights, &kept);
         }

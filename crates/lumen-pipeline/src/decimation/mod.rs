@@ -17,7 +17,8 @@
 //!   step, at the price of waiting longer, down to "does not fold" (`one_ring.rs`);
 //! - makes no triangle run into another (`guard/`).
 //!
-//! Borders between labels are held where that is asked for (`borders.rs`).
+//! Borders between labels are held where that is asked for (`borders.rs`), rims of flat caps among them, with the caps' areas
+//! (`cap_areas.rs`).
 //!
 //! Where thin vessels are spared, the distance of a vertex counts by the width of its vessel, for the order alone
 //! (`weights.rs`).
@@ -25,6 +26,7 @@
 //! The error of a step is the method's measure, no bound of the true deviation: measure that (`super::deviation`).
 
 mod borders;
+mod cap_areas;
 mod collapse;
 mod fan;
 mod guard;
@@ -40,6 +42,7 @@ mod ways;
 mod weights;
 
 pub(super) use self::borders::labels_of;
+pub use self::cap_areas::SPENT;
 pub use self::task::{Decimated, Holds, decimate_in_slices};
 pub use self::ways::{CollapseStatus, Ways};
 use super::progressive::ProgressiveMesh;

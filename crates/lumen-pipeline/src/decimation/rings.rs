@@ -128,6 +128,11 @@ impl Rings {
         }
     }
 
+    /// A place in mm as a position of this surface.
+    pub(super) fn from_mm(&self, place: Vec3) -> Vec3A {
+        Vec3A::from((place - self.centre) / self.unit)
+    }
+
     /// A position of this surface in mm.
     pub(super) fn in_mm(&self, position: Vec3A) -> Vec3 {
         Vec3::from(position) * self.unit + self.centre

@@ -1,5 +1,6 @@
 //! A run: the rings, the feature edges, each vertex judged once, then rounds until no vertex can go.
 
+use super::cap_areas::CapAreas;
 use super::collapse::{LAST, Refusal, Surface};
 use super::method::{self, Candidate, Judged};
 use super::quadric::Quadric;
@@ -11,7 +12,7 @@ use crate::classes::Lines;
 use crate::progressive::{Limit, Merge, ProgressiveMesh};
 use crate::settings::{Decimation, Method};
 use lumen_mesh::task::{Yielder, blocks};
-use lumen_mesh::{EdgeUse, Topology, TriMesh, components};
+use lumen_mesh::{EdgeUse, FlatCap, Topology, TriMesh, components};
 
 /// Vertices between two looks at the clock.
 const CHUNK: usize = 64;
@@ -38,6 +39,8 @@ pub struct Holds<'a> {
     pub widths: Option<&'a [f32]>,
     /// The borders between labels (`borders.rs`): a number for each triangle of the mesh.
     pub labels: Option<&'a [u32]>,
+    /// The caps whose areas are kept (`cap_areas.rs`); their rims have to be borders.
+    pub caps: &'a [FlatCap],
 }
 
 /// Decimates `mesh`, whose topology is `topology`, as far as it goes. Rests about every millisecond; before the first vertex is
@@ -59,6 +62,7 @@ pub async fn decimate_in_slices(
     run.surface.rings.compact();
     yielder.rest(0.0).await;
     run.number(holds.widths);
+    run.surface.caps = CapAreas::new(holds.caps, &run.surface.rings);
     yielder.rest(0.0).await;
     let count = components(mesh.positions.len(), &mesh.triangles).count();
     yielder.rest(0.0).await;

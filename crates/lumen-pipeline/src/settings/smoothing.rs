@@ -27,6 +27,9 @@ pub struct Smoothing {
     /// Whether the filter is weakened where it would make triangles cross that did not.
     #[serde(default)]
     pub guard: bool,
+    /// Whether flat caps of a closed surface stay flat, with their areas, in smoothing and in decimation.
+    #[serde(default)]
+    pub hold_caps: bool,
 }
 
 impl Smoothing {
@@ -44,11 +47,12 @@ impl Smoothing {
         preserve_volume: false,
         adapt: false,
         guard: false,
+        hold_caps: false,
     };
 
     /// What suits a surface whatever its calibres: as [`Self::PAPER`] where vessels are wide, and nowhere so much that a
-    /// vessel loses its calibre or triangles cross.
-    pub const AUTO: Self = Self { adapt: true, guard: true, ..Self::PAPER };
+    /// vessel loses its calibre, triangles cross or a flat cap is rounded.
+    pub const AUTO: Self = Self { adapt: true, guard: true, hold_caps: true, ..Self::PAPER };
 
     /// No smoothing.
     pub const NONE: Self = Self { iterations: 0, ..Self::AUTO };
@@ -62,9 +66,9 @@ impl Default for Smoothing {
 }
 
 impl Smoothing {
-    /// Whether these make the same surface: without iterations, the rest does not matter.
+    /// Whether these make the same surface and levels: without iterations, all but the caps does not matter.
     pub fn gives_same(&self, other: &Self) -> bool {
-        self == other || (self.iterations == 0 && other.iterations == 0)
+        self == other || (self.iterations == 0 && other.iterations == 0 && self.hold_caps == other.hold_caps)
     }
 }
 
@@ -169,7 +173,7 @@ fn smooths(settings: &Settings) -> bool {
 }
 
 /// The rows of [`Smoothing`].
-pub(super) static ROWS: [Setting; 7] = [
+pub(super) static ROWS: [Setting; 8] = [
     Setting {
         key: "window",
         field: "smoothing.window",
@@ -280,6 +284,20 @@ pub(super) static ROWS: [Setting; 7] = [
             label: "panel-guard",
             help: "panel-guard-help",
             said: "compare-no-crossing",
+            refused: None,
+        },
+    },
+    Setting {
+        key: "hold-caps",
+        field: "smoothing.hold_caps",
+        kind: Kind::Switch { at: |settings| &mut settings.smoothing.hold_caps },
+        in_link: InLink::Changed,
+        matters: |_| true,
+        option: CommandOption { value: "", help: "Treat the flat caps of closed vessels as any wall" },
+        messages: Messages {
+            label: "panel-hold-caps",
+            help: "panel-hold-caps-help",
+            said: "compare-caps-held",
             refused: None,
         },
     },

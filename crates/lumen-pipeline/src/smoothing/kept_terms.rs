@@ -26,14 +26,14 @@ impl KeptTerms {
 
     /// Runs the filter over `kept` for its terms alone.
     pub(crate) fn preparation(kept: &Arc<Surface>, settings: &Smoothing) -> Preparation {
-        let (kept, settings) = (kept.clone(), *settings);
+        let (kept, settings) = (kept.smoothed_as(settings), *settings);
         Running::new(|yielder| prepare(kept, settings, yielder))
     }
 
     /// Whether another filter for `settings` on `kept` is but a sum of these.
     pub(crate) fn suit(&self, kept: &Arc<Surface>, settings: &Smoothing) -> bool {
         let degree = settings.iterations as usize;
-        Arc::ptr_eq(&self.of, kept) && self.boundary == settings.boundary && degree <= self.terms.degree()
+        Arc::ptr_eq(&self.of, &kept.smoothed_as(settings)) && self.boundary == settings.boundary && degree <= self.terms.degree()
     }
 
     /// The terms.

@@ -136,7 +136,7 @@ mod tests {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let loops = oriented_loops(&topology);
         let measures = Measures { area_mm2: 0.0, volume_mm3: None };
-        Arc::new(Surface { mesh: Arc::new(mesh), topology: Arc::new(topology), loops, measures })
+        Arc::new(Surface { mesh: Arc::new(mesh), topology: Arc::new(topology), loops, measures, caps: None })
     }
 
     /// The pass bands of a vessel that is thin everywhere.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::{Row, Run};
+use crate::caps::Capped;
 use crate::connectivity::Connectivity;
 use crate::results::Surface;
 use crate::stage::Stage;
@@ -43,7 +44,9 @@ fn start(store: &Store) -> Option<Run> {
         let loops = oriented_loops(&topology);
         let measures = measures_within(&mesh, loops.as_deref());
         outbox.tell_apart(Part::KeptAreas, begun);
-        let kept = Surface { mesh, topology: Arc::new(topology), loops, measures };
+        yielder.rest(0.9).await;
+        let caps = Capped::of(&mesh, &topology, measures);
+        let kept = Surface { mesh, topology: Arc::new(topology), loops, measures, caps };
         outbox.leave(|store| {
             store.now.connectivity = Some(found);
             store.now.kept = Some(Arc::new(kept));

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::{Outbox, Row, Run};
+use crate::caps::settle;
 use crate::filter::Filter;
 use crate::response::SmoothingResponse;
 use crate::results::{Adapted, Smoothed, Surface};
@@ -34,6 +35,8 @@ pub(super) const ROW: Row = Row {
 /// What the stage works on.
 struct Filtering {
     kept: Arc<Surface>,
+    /// What the filter sees of it: it is the kept one itself where no caps are held.
+    walls: Arc<Surface>,
     settings: Smoothing,
     filter: Filter,
     /// What is known of the kept surface.
@@ -50,6 +53,7 @@ fn start(store: &Store) -> Option<Run> {
     let kept = store.now.kept.clone()?;
     let settings = store.now.settings.smoothing;
     let filtering = Filtering {
+        walls: kept.smoothed_as(&settings),
         filter: Filter::new(&settings),
         index: store.now.indices.kept.clone(),
         widths: store.known_widths().cloned(),
@@ -77,16 +81,21 @@ impl Filtering {
         let mut positions = match &bands {
             Some(bands) => {
                 let positions = self.filter(Some(bands), &filtered.part(0.6..0.9), outbox).await;
-                restore(&self.kept, positions, &settings, bands, &filtered.part(0.9..1.0)).await
+                restore(&self.walls, positions, &settings, bands, &filtered.part(0.9..1.0)).await
             }
             None => self.filter(None, &filtered, outbox).await,
         };
 
         let mut volume_held = settings.preserve_volume.then_some(false);
-        if let Some(before) = before(&self.kept).filter(|_| settings.preserve_volume) {
+        if let Some(before) = before(&self.walls).filter(|_| settings.preserve_volume) {
             let part = yielder.part(end / 2.0..end);
             let held = hold_volume(&before, positions, settings.boundary, &self.filter, &part).await;
             (positions, volume_held) = (held.0, Some(held.1));
+        }
+        let caps = self.kept.held_caps(&settings);
+        if !caps.is_empty() {
+            settle(&self.kept, caps, &mut positions);
+            yielder.rest(end).await;
         }
         let guarded = if settings.guard {
             guard(&self.kept, self.index.take(), positions, &yielder.part(end..1.0)).await
@@ -102,9 +111,11 @@ impl Filtering {
         if let Some(known) = self.bands.take() {
             return known;
         }
-        let Surface { mesh, topology, .. } = &*self.kept;
+        let Surface { mesh, topology, .. } = &*self.walls;
         let kept = &self.kept;
         let widths = match self.widths.take() {
+            // Beside a cap the balls within are as small as its corner is near.
+            _ if !Arc::ptr_eq(kept, &self.walls) => widths(mesh, topology, None, &yielder.part(0.0..0.8)).await.0.into(),
             Some(known) => known,
             None => {
                 let (found, index) = widths(mesh, topology, self.index.take(), &yielder.part(0.0..0.8)).await;
@@ -119,26 +130,26 @@ impl Filtering {
             }
         };
         let bands: Arc<[f32]> = least_pass_bands(mesh, topology, &widths, &yielder.part(0.8..1.0)).await.into();
-        let left = (kept.clone(), bands.clone());
+        let left = (self.walls.clone(), bands.clone());
         outbox.leave(|store| store.bands = Some(left));
         bands
     }
 
     /// The positions by the filter, with a pass band of its own at each vertex where there are `bands`.
     async fn filter(&self, bands: Option<&[f32]>, yielder: &Yielder, outbox: &Outbox) -> Vec<Vec3> {
-        let Self { kept, settings, filter, bytes, .. } = self;
+        let Self { walls, settings, filter, bytes, .. } = self;
         if let Some(known) = &self.terms {
             return match bands {
                 Some(bands) => known.terms().smooth_varying(settings, bands),
                 None => known.terms().smooth(filter),
             };
         }
-        let (positions, topology, boundary) = (&kept.mesh.positions, &kept.topology, settings.boundary);
+        let (positions, topology, boundary) = (&walls.mesh.positions, &walls.topology, settings.boundary);
         let (positions, terms) = match bands {
             Some(bands) => smooth_varying(positions, topology, settings, bands, *bytes, yielder).await,
             None => smooth_keeping_terms(positions, topology, boundary, filter, *bytes, yielder).await,
         };
-        if let Some(terms) = KeptTerms::of(kept, boundary, terms) {
+        if let Some(terms) = KeptTerms::of(walls, boundary, terms) {
             outbox.leave(|store| store.terms = Some(Arc::new(terms)));
         }
         positions
@@ -179,7 +190,7 @@ impl Filtering {
 
 /// The surface before smoothing, if it encloses a volume.
 fn before(kept: &Surface) -> Option<Before<'_>> {
-    let Surface { mesh, topology, loops, measures } = kept;
+    let Surface { mesh, topology, loops, measures, .. } = kept;
     Some(Before { mesh, topology, loops: loops.as_deref()?, volume: measures.volume_mm3? })
 }
 

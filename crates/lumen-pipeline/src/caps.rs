@@ -1,0 +1,248 @@
+//! The flat caps of a closed surface, held through smoothing and decimation: for flow, the area of an inlet is the boundary
+//! condition.
+//!
+//! Smoothing sees the surface without its caps: each rim is an open end then, which is smoothed along itself in its plane.
+//! After it each cap is laid into its plane again and brought to the area that it had, about its middle; what is inside of
+//! the rim goes along with it. Decimation takes rims as borders between labels, and gives up no more of a cap's area than
+//! [`SPENT`](crate::decimation::SPENT).
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::results::Surface;
+use crate::settings::Smoothing;
+use lumen_mesh::{FlatCap, Measures, Topology, TriMesh, Vec3, flat_caps, oriented_loops, polygon_area, volume_within};
+
+/// Passes in which what is inside of a rim takes the mean of its neighbours' ways.
+const PASSES: usize = 200;
+
+/// The flat caps of a surface, and what is left without them.
+#[derive(Debug)]
+pub struct Capped {
+    /// The caps.
+    pub caps: Vec<FlatCap>,
+    /// The surface without their triangles: the same vertices, and a rim around each.
+    pub walls: Arc<Surface>,
+}
+
+impl Capped {
+    /// Of a surface whose triangles have this adjacency; `None` where it has no caps.
+    pub(crate) fn of(mesh: &Arc<TriMesh>, topology: &Topology, measures: Measures) -> Option<Box<Self>> {
+        let caps = flat_caps(mesh, topology);
+        if caps.is_empty() {
+            return None;
+        }
+        let mut is_cap = vec![false; mesh.triangles.len()];
+        caps.iter().flat_map(|cap| &cap.triangles).for_each(|&t| is_cap[t as usize] = true);
+        let triangles = mesh.triangles.iter().zip(&is_cap).filter(|(_, is_cap)| !**is_cap).map(|(&t, _)| t).collect();
+        let walls = TriMesh { positions: mesh.positions.clone(), triangles };
+        let topology = Topology::new(walls.positions.len(), &walls.triangles);
+        let loops = oriented_loops(&topology);
+        let volume_mm3 = loops.as_deref().map(|loops| volume_within(&walls, loops));
+        let measures = Measures { volume_mm3, ..measures };
+        let walls = Surface { mesh: Arc::new(walls), topology: Arc::new(topology), loops, measures, caps: None };
+        Some(Box::new(Self { caps, walls: Arc::new(walls) }))
+    }
+}
+
+impl Surface {
+    /// What smoothing by these settings sees of the surface: without its caps where they are held.
+    pub(crate) fn smoothed_as(self: &Arc<Self>, settings: &Smoothing) -> Arc<Self> {
+        let capped = self.caps.as_ref().filter(|_| settings.hold_caps);
+        capped.map_or(self, |capped| &capped.walls).clone()
+    }
+
+    /// Its caps, where these settings hold them.
+    pub(crate) fn held_caps(&self, settings: &Smoothing) -> &[FlatCap] {
+        self.caps.as_ref().filter(|_| settings.hold_caps).map_or(&[], |capped| &capped.caps)
+    }
+}
+
+/// Lays the caps of `before` into their planes, each with the area that it had.
+pub(crate) fn settle(before: &Surface, caps: &[FlatCap], positions: &mut [Vec3]) {
+    let old = |v: u32| before.mesh.positions[v as usize].as_dvec3();
+    for cap in caps {
+        let flat = |p: Vec3| {
+            let p = p.as_dvec3();
+            p - cap.normal * (p - cap.centre).dot(cap.normal)
+        };
+        let mut rim: Vec<DVec3> = cap.rim.iter().map(|&v| flat(positions[v as usize])).collect();
+        let area_before = polygon_area(cap.rim.iter().map(|&v| old(v)), cap.normal);
+        let area = polygon_area(rim.iter().copied(), cap.normal);
+        if area > 0.0 && area_before > 0.0 {
+            let scale = libm::sqrt(area_before / area);
+            let middle = rim.iter().sum::<DVec3>() / rim.len() as f64;
+            rim.iter_mut().for_each(|p| *p = middle + (*p - middle) * scale);
+        }
+        for (&v, p) in cap.rim.iter().zip(&rim) {
+            positions[v as usize] = p.as_vec3();
+        }
+        follow(before, cap, positions);
+    }
+}
+
+/// Moves the vertices inside of a cap's rim by the mean of what their neighbours move by.
+fn follow(before: &Surface, cap: &FlatCap, positions: &mut [Vec3]) {
+    let mut vertices: Vec<u32> = cap.triangles.iter().flat_map(|&t| before.mesh.triangles[t as usize]).collect();
+    vertices.sort_unstable();
+    vertices.dedup();
+    let place = |v: u32| vertices.binary_search(&v).ok();
+    let way = |v: u32| positions[v as usize].as_dvec3() - before.mesh.positions[v as usize].as_dvec3();
+    let mut is_rim = vec![false; vertices.len()];
+    let mut ways = vec![DVec3::ZERO; vertices.len()];
+    for (i, &v) in cap.rim.iter().filter_map(|v| Some((place(*v)?, v))) {
+        (is_rim[i], ways[i]) = (true, way(v));
+    }
+    let mean_of_rim = ways.iter().sum::<DVec3>() / cap.rim.len().max(1) as f64;
+    let inner: Vec<(usize, Vec<usize>)> = (0..vertices.len())
+        .filter(|&i| !is_rim[i])
+        .map(|i| (i, before.topology.neighbours(vertices[i]).iter().filter_map(|&n| place(n)).collect()))
+        .collect();
+    inner.iter().for_each(|(i, _)| ways[*i] = mean_of_rim);
+    for _ in 0..PASSES {
+        for (i, around) in &inner {
+            ways[*i] = around.iter().map(|&n| ways[n]).sum::<DVec3>() / around.len().max(1) as f64;
+        }
+    }
+    for (i, _) in &inner {
+        let p = before.mesh.positions[vertices[*i] as usize].as_dvec3() + ways[*i];
+        positions[vertices[*i] as usize] = (p - cap.normal * (p - cap.centre).dot(cap.normal)).as_vec3();
+    }
+}
+
+/// A number for each triangle, another on each side of a rim and wherever `labels` has another.
+pub(crate) fn with_caps(labels: Option<Vec<u32>>, caps: &[FlatCap], triangles: usize) -> Option<Vec<u32>> {
+    if caps.is_empty() {
+        return labels;
+    }
+    let count = caps.len() as u32 + 1;
+    let mut numbers: Vec<u32> = match labels {
+        Some(labels) => labels.into_iter().map(|label| label * count).collect(),
+        None => vec![0; triangles],
+    };
+    for (i, cap) in caps.iter().enumerate() {
+        cap.triangles.iter().for_each(|&t| numbers[t as usize] += i as u32 + 1);
+    }
+    Some(numbers)
+}
+
+/// The area of a cap before smoothing and on a level.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CapArea {
+    /// As it was opened, in mm2.
+    pub before_mm2: f64,
+    /// Of the level, in mm2: that of the triangles in the cap's plane.
+    pub after_mm2: f64,
+    /// The middle of the cap, in mm.
+    pub centre: [f32; 3],
+}
+
+impl CapArea {
+    /// The change, in percent of the area before.
+    pub fn change_percent(&self) -> f64 {
+        100.0 * (self.after_mm2 / self.before_mm2 - 1.0)
+    }
+}
+
+/// A triangle of a level lies in a cap's plane where its corners are at most this part of the cap's radius off it.
+const IN_PLANE: f64 = 1e-3;
+/// And in the cap where they are at most so many of its radii from its middle.
+const AROUND: f64 = 3.0;
+
+/// The areas of `caps` on `level`, a surface made from theirs. A cap that is no longer flat has less of it.
+pub fn cap_areas(caps: &[FlatCap], level: &TriMesh) -> Vec<CapArea> {
+    let mut areas: Vec<CapArea> = caps
+        .iter()
+        .map(|cap| CapArea { before_mm2: cap.area_mm2, after_mm2: 0.0, centre: cap.centre.as_vec3().to_array() })
+        .collect();
+    for t in 0..level.triangles.len() {
+        let corners = level.corners(t).map(Vec3::as_dvec3);
+        for (cap, area) in caps.iter().zip(&mut areas) {
+            let radius = cap.radius_mm();
+            let is_in = |p: DVec3| {
+                (p - cap.centre).dot(cap.normal).abs() < IN_PLANE * radius && p.distance(cap.centre) < AROUND * radius
+            };
+            if corners.into_iter().all(is_in) {
+                let [a, b, c] = corners;
+                area.after_mm2 += (b - a).cross(c - a).dot(cap.normal) / 2.0;
+            }
+        }
+    }
+    areas
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::Pipeline;
+    use crate::settings::{Decimation, Method, Settings, Target};
+    use lumen_mesh::self_intersections;
+    use lumen_mesh::shapes::capped;
+
+    /// The area of a regular polygon in a circle of 2 mm.
+    fn polygon(sides: u32) -> f64 {
+        f64::from(sides) * 2.0 * libm::sin(std::f64::consts::TAU / f64::from(sides))
+    }
+
+    fn areas(mesh: &Arc<TriMesh>, settings: Settings) -> (Vec<CapArea>, Arc<TriMesh>) {
+        let mut pipeline = Pipeline::new(mesh.clone(), settings).without_measures();
+        pipeline.finish().unwrap();
+        let level = pipeline.reduced().unwrap().mesh.clone();
+        let caps = flat_caps(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+        (cap_areas(&caps, &level), level)
+    }
+
+    #[test]
+    fn caps_keep_their_plane_and_area_at_every_rate_by_both_methods() {
+        let mesh = Arc::new(capped(96, 120, 30.0, 2.0));
+        for method in Method::ALL {
+            for rate in [0, 500, 900, 970] {
+                let decimation = Decimation { method, ..Decimation::default() };
+                let settings = Settings { target: Target::Reduction(rate), decimation, ..Settings::default() };
+                let (areas, level) = areas(&mesh, settings);
+                assert_eq!(areas.len(), 2);
+                for area in areas {
+                    assert!((area.before_mm2 / polygon(96) - 1.0).abs() < 1e-4);
+                    assert!(area.change_percent().abs() < 0.5, "{method:?} at {rate}: {area:?}");
+                }
+                assert_eq!(self_intersections(&level).len(), 0);
+            }
+        }
+    }
+
+    #[test]
+    fn as_any_wall_a_cap_is_rounded() {
+        let mesh = Arc::new(capped(96, 120, 30.0, 2.0));
+        let smoothing = Smoothing { hold_caps: false, ..Smoothing::AUTO };
+        let target = Target::Reduction(0);
+        let (areas, _) = areas(&mesh, Settings { smoothing, target, ..Settings::default() });
+        assert!(areas.iter().all(|area| area.change_percent() < -5.0), "{areas:?}");
+    }
+
+    #[test]
+    fn caps_at_a_slant_in_the_paper_s_strong_filter_keep_their_areas_too() {
+        let mut slanted = capped(64, 100, 40.0, 2.0);
+        slanted.positions.iter_mut().for_each(|p| p.z += 0.7 * p.x);
+        let smoothing = Smoothing { hold_caps: true, preserve_volume: true, ..Smoothing::PAPER };
+        let target = Target::Reduction(900);
+        let (areas, _) = areas(&Arc::new(slanted), Settings { smoothing, target, ..Settings::default() });
+        for area in areas {
+            assert!((area.before_mm2 / (polygon(64) * libm::sqrt(1.49)) - 1.0).abs() < 1e-4, "{area:?}");
+            assert!(area.change_percent().abs() < 0.5, "{area:?}");
+        }
+    }
+
+    #[test]
+    fn rims_are_borders_beside_those_of_labels() {
+        let mesh = capped(24, 20, 20.0, 2.0);
+        let caps = flat_caps(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+        let labels: Vec<u32> = (0..mesh.triangles.len() as u32).map(|t| t % 2).collect();
+        let numbers = with_caps(Some(labels.clone()), &caps, mesh.triangles.len()).unwrap();
+        let of: std::collections::BTreeSet<u32> = numbers.iter().copied().collect();
+        assert_eq!(of.len(), 6, "two labels on the wall and on each of two caps");
+        assert_eq!(with_caps(Some(labels.clone()), &[], 0), Some(labels));
+        assert_eq!(with_caps(None, &[], 5), None);
+    }
+}
