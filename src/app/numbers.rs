@@ -3,7 +3,8 @@
 use egui::{CollapsingHeader, RichText, Ui};
 
 use super::row::number;
-use crate::language::{Key, decimal};
+use crate::language::{Key, decimal, signed};
+use crate::pipeline::caps::changes_percent;
 use crate::pipeline::report::Report;
 use crate::pipeline::shape::Shape;
 use crate::say;
@@ -22,6 +23,12 @@ pub(super) fn shape(ui: &mut Ui, report: Option<&Report>) {
                 _ => "–".to_owned(),
             };
             number(ui, &row.name.say(), &text, &row.help.say());
+        }
+        let caps = report.and_then(|report| report.caps.as_deref()).unwrap_or_default();
+        if let Some(changes) = changes_percent(caps) {
+            let [least, most] = changes.map(|percent| signed(percent, 2));
+            let text = say!("panel-caps-changed", count = caps.len(), least = least, most = most);
+            number(ui, &say!("panel-caps"), &text, &say!("panel-caps-help"));
         }
         if let Some(Narrowest { at_mm: [x, y, z], .. }) = level.and_then(|shape| shape.smallest_lumen) {
             let [x, y, z] = [x, y, z].map(|x| decimal(x, 1));

@@ -18,6 +18,7 @@ use super::settings::{Asked, SettingsOptions};
 use super::written::WrittenOptions;
 use super::{batch, branches, interrupt, places, source};
 use crate::io::Unit;
+use crate::pipeline::caps::changes_percent;
 use crate::pipeline::report::{DISCLAIMER, Report, SafeReport};
 use crate::pipeline::results::Adapted;
 use crate::pipeline::verdict::Verdict;
@@ -215,6 +216,10 @@ impl Optimise {
         }
         if let Some(shape) = &report.output_shape {
             shape_rows(shape);
+        }
+        let caps = report.caps.as_deref().unwrap_or_default();
+        if let Some([least, most]) = changes_percent(caps) {
+            row("caps, change of area", format!("{} to {} % ({} caps)", signed(least, 2), signed(most, 2), caps.len()));
         }
         let before = report.smoothed_shape.as_ref().and_then(|shape| shape.smallest_lumen);
         if let Some(Narrowest { diameter_mm, .. }) = before {

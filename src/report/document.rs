@@ -9,6 +9,7 @@ use super::plot::{Plot, radius, response};
 use super::words::{others, said};
 use crate::io::{Axes, ImportReport, ThresholdReport};
 use crate::language::{decimal, exact, grouped, inner, signed, tell};
+use crate::pipeline::caps::changes_percent;
 use crate::pipeline::report::{AutoReport, Report};
 use crate::pipeline::settings::{Keep, Preset, Settings, Target};
 use crate::pipeline::verdict::{FindingKind, Verdict};
@@ -203,7 +204,7 @@ fn mending(settings: &Settings) -> String {
 
 /// What was smoothed with.
 fn filter(settings: &Settings) -> String {
-    const KNOWN: [&str; 6] = ["pass-band", "iterations", "window", "adapt", "guard", "preserve-volume"];
+    const KNOWN: [&str; 7] = ["pass-band", "iterations", "window", "adapt", "guard", "hold-caps", "preserve-volume"];
     let smoothing = &settings.smoothing;
     if smoothing.iterations == 0 {
         return say!("report-no-smoothing");
@@ -213,6 +214,7 @@ fn filter(settings: &Settings) -> String {
         Some(say!("report-filter", band = band, count = count, window = window)),
         smoothing.adapt.then(|| say!("compare-adapted")),
         smoothing.guard.then(|| say!("report-no-crossings")),
+        smoothing.hold_caps.then(|| say!("compare-caps-held")),
         smoothing.preserve_volume.then(|| say!("report-volume-held")),
     ];
     let parts = parts.into_iter().flatten().chain(others("smoothing", &KNOWN, settings));
@@ -288,6 +290,12 @@ fn numbers(report: &Report) -> Vec<Row> {
     );
     let shape = report.output_shape.as_ref();
     add(say!("report-crossing"), shape.map(|shape| grouped(shape.self_intersecting_faces)));
+    let caps = report.caps.as_deref().unwrap_or_default();
+    let told = |[least, most]: [f64; 2]| {
+        let [least, most] = [least, most].map(|percent| signed(percent, 2));
+        say!("panel-caps-changed", count = caps.len(), least = least, most = most)
+    };
+    add(say!("report-caps"), changes_percent(caps).map(told));
     let lumen = shape.and_then(|shape| shape.smallest_lumen);
     add(say!("report-smallest-lumen"), lumen.map(|lumen| format!("{} mm", decimal(lumen.diameter_mm, 2))));
     let coverage = report.calibre.as_ref().and_then(|calibre| calibre.coverage);

@@ -44,6 +44,7 @@ fn settings() -> impl Strategy<Value = Smoothing> {
         preserve_volume: false,
         adapt: false,
         guard: false,
+        hold_caps: false,
     })
 }
 

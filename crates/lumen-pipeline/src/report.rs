@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::caps::CapArea;
 use super::deviation::Deviation;
 use super::pinch::Pinch;
 use super::progressive::Shortfall;
@@ -191,6 +192,10 @@ pub struct Report {
     pub output_shape: Option<Shape>,
     /// Where the output has narrowed a vessel of the smoothed surface most; null where there is none.
     pub narrowing: Option<Narrowing>,
+    /// The area of each flat cap (an inlet or outlet of a closed model) before and after; null until it is measured, empty
+    /// where there is none.
+    #[serde(default)]
+    pub caps: Option<Vec<CapArea>>,
     /// The first reduction rate, of all, at which a vessel is pinched or lost; null where there is none.
     pub pinch: Option<Pinch>,
     /// How far a reduction is safe; null where that was not asked for, and until it is known.
@@ -332,6 +337,7 @@ impl Report {
             smoothed_shape: pipeline.smoothed_measures().map(|found| found.shape.clone()),
             output_shape: pipeline.level_measures().map(|found| found.shape.clone()),
             narrowing: pipeline.level_measures().and_then(|found| found.narrowing),
+            caps: pipeline.level_measures().map(|found| found.caps.clone()),
             pinch: pipeline.smoothed_measures().and_then(|found| found.pinch),
             safe: pipeline.safe().map(|safe| SafeReport::new(safe)),
             calibre: certified.map(|found| CalibreReport {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::caps::Capped;
 use super::bound::Bound;
+use super::caps::{CapArea, Capped};
 use super::connectivity::Connectivity;
 use super::deviation::Comparison;
 use super::filter::Filter;
@@ -230,6 +230,8 @@ pub struct LevelMeasures {
     pub shape: Shape,
     /// Where it has narrowed a vessel most; `None` where there is no vessel.
     pub narrowing: Option<Narrowing>,
+    /// The areas of the opened surface's flat caps.
+    pub caps: Vec<CapArea>,
 }
 
 /// What a level makes of the vessels.

@@ -26,9 +26,9 @@ pub fn settings() -> impl Strategy<Value = Settings> {
     let boundary = prop::sample::select(vec![Boundary::Loop, Boundary::Vtk15]);
     let pass_band = (-3.0f64..0.3).prop_map(|power| libm::pow(10.0, power).clamp(0.001, 2.0));
     let rate = prop_oneof![prop::sample::select(RATES.to_vec()), 0u32..=999];
-    let switches = (any::<bool>(), any::<bool>(), any::<bool>());
+    let switches = (any::<bool>(), any::<bool>(), any::<bool>(), any::<bool>());
     let smoothing = (window, pass_band, 0u32..=120, boundary, switches).prop_map(
-        |(window, pass_band, iterations, boundary, (preserve_volume, adapt, guard))| Smoothing {
+        |(window, pass_band, iterations, boundary, (preserve_volume, adapt, guard, hold_caps))| Smoothing {
             window,
             pass_band,
             iterations,
@@ -36,6 +36,7 @@ pub fn settings() -> impl Strategy<Value = Settings> {
             preserve_volume,
             adapt,
             guard,
+            hold_caps,
         },
     );
     (smoothing, method, 0.0f64..=180.0, rate, any::<bool>()).prop_map(

@@ -11,7 +11,7 @@ use crate::say;
 /// Parts of a setting: what each of them says stands in `parts`.
 const PARTS: usize = 8;
 /// The settings that have a place there; others are said where they are not as by default.
-const SMOOTHING: [&str; 6] = ["pass-band", "iterations", "window", "preserve-volume", "adapt", "guard"];
+const SMOOTHING: [&str; 7] = ["pass-band", "iterations", "window", "preserve-volume", "adapt", "guard", "hold-caps"];
 const REDUCTION: [&str; 4] = ["method", "feature-angle", "spare-thin", "keep-labels"];
 
 /// A setting, part by part; a part that does not apply is empty.
@@ -30,10 +30,10 @@ fn parts(settings: &Settings) -> [String; PARTS] {
         }
     };
     let mut how = said(&["preserve-volume"]);
-    if smoothing.iterations > 0 && smoothing.adapt && smoothing.guard {
+    if smoothing.iterations > 0 && smoothing.adapt && smoothing.guard && smoothing.hold_caps {
         how.push(say!("compare-suits"));
     } else {
-        how.extend(said(&["adapt", "guard"]));
+        how.extend(said(&["adapt", "guard", "hold-caps"]));
     }
     how.extend(others("smoothing", &SMOOTHING, settings));
     let mut spared = said(&["spare-thin", "keep-labels"]);

@@ -19,7 +19,7 @@ const AROUND: f32 = 60.0;
 /// Settings that stand in the dock.
 const DOCKED: [&str; 2] = ["pass-band", "iterations"];
 /// The others from top to bottom; one that is not among them comes last.
-const ORDER: [&str; 4] = ["window", "adapt", "guard", "preserve-volume"];
+const ORDER: [&str; 5] = ["window", "adapt", "guard", "hold-caps", "preserve-volume"];
 
 /// Shows the step.
 pub(super) fn show(ui: &mut Ui, state: &State, _: &Views, asked: &mut Vec<Action>) {

@@ -83,6 +83,7 @@ compare-volume-preserved = Volumen erhalten
 compare-suits = zur Oberfläche passend
 compare-adapted = dem Kaliber angepasst
 compare-no-crossing = ohne Schnitte
+compare-caps-held = Deckel gehalten
 compare-method = Verfahren { $value }
 compare-feature-angle = Kantenwinkel { $value }°
 compare-thin-spared = dünne Gefäße geschont

@@ -205,6 +205,8 @@ panel-adapt = Dem Kaliber anpassen
 panel-adapt-help = Glättet dünne Gefäße weniger, damit jedes sein Kaliber behält. Das Durchlassband ist das der weiten.
 panel-guard = Ohne Schnitte
 panel-guard-help = Glättet weniger, wo Dreiecke sonst durch andere gezogen würden: an Falten und zwischen Gefäßen.
+panel-hold-caps = Deckel halten
+panel-hold-caps-help = Ebene Enden geschlossener Gefäße bleiben eben und behalten ihre Flächen: Ein- und Auslässe einer Strömung.
 panel-volume-held = Volumen erhalten
 panel-volume-held-help = Gibt dort zurück, was die Glättung abträgt: offene Enden verschlossen, auf 0,01 % genau.
 panel-smoothed-less = { $count ->
@@ -376,6 +378,10 @@ panel-slivers = Splitter
 panel-slivers-help = Dreiecke mit einem Winkel unter 10 Grad, als Teil von allen
 panel-self-intersecting = Selbstschnitte
 panel-self-intersecting-help = Dreiecke, die andere schneiden
+panel-caps = Ein- und Auslässe
+panel-caps-help = Ebene Enden, und um wie viel sich ihre Flächen ändern
+# How many, and the least and largest change in percent.
+panel-caps-changed = { $count }, { $least } bis { $most } %
 panel-smallest-lumen = Engstes Lumen
 panel-smallest-lumen-help = Durchmesser der Gefäße an der engsten Stelle: der größten Kugel im Innern, die dort die Wand berührt
 

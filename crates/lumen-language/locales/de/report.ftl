@@ -81,6 +81,7 @@ report-volume-change = Volumenänderung
 report-area-change = Flächenänderung
 report-half-gain = Halbe Verstärkung
 report-crossing = Selbstschnitte
+report-caps = Ein- und Auslässe
 report-smallest-lumen = Engstes Lumen
 report-measured = Gefäße gemessen
 report-output-fingerprint = Oberflächen-Prüfsumme

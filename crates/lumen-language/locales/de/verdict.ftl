@@ -47,6 +47,7 @@ verdict-choose-pieces-help = Zeigt, was weggelassen ist; ein Klick auf ein Stüc
 verdict-fill = Füllen
 verdict-split = Trennen
 verdict-no-crossings = Ohne Schnitte
+verdict-hold-caps = Deckel halten
 
 ## Befunde zur Datei
 
@@ -94,6 +95,14 @@ verdict-crossing-before = { $count ->
     [one] { $count } Dreieck schneidet andere; vor der Reduktion waren es { $before }.
    *[other] { $count } Dreiecke schneiden andere; vor der Reduktion waren es { $before }.
 }
+verdict-caps-rounded = { $count ->
+    [one] Ein Ein- oder Auslass ist nicht mehr eben.
+   *[other] { $count } Ein- und Auslässe sind nicht mehr eben.
+}
+verdict-caps = { $count ->
+    [one] Die Fläche eines Ein- oder Auslasses ändert sich um { $percent } %.
+   *[other] Die Flächen von { $count } Ein- und Auslässen ändern sich, eine um { $percent } %.
+}
 verdict-narrower = Wie geöffnet ist { $name } über { $length } mm um { $percent } % enger als zu beiden Seiten: { $reference }.
 verdict-wider = Wie geöffnet ist { $name } über { $length } mm um { $percent } % weiter als zu beiden Seiten: { $reference }.
 verdict-few-iterations = Zu wenige Iterationen für dieses Durchlassband: Zum Glätten braucht es mehr.
@@ -112,6 +121,8 @@ verdict-place-wider = { $percent } % weiter
 verdict-place-pinched = eingeschnürt
 verdict-place-lost = verloren
 verdict-place-shut = Zugezogen
+verdict-place-rounded = nicht mehr eben
+verdict-place-cap = Fläche { $percent } %
 
 ## Wie weit eine Reduktion sicher ist: Sätze ohne Punkt
 

@@ -88,6 +88,7 @@ compare-volume-preserved = volume preserved
 compare-suits = suits this surface
 compare-adapted = adapted to calibre
 compare-no-crossing = no crossing
+compare-caps-held = caps held
 # The name of a method of decimation: Schroeder method.
 compare-method = { $value } method
 compare-feature-angle = feature angle { $value }°

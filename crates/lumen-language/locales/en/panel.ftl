@@ -202,6 +202,8 @@ panel-adapt = Adapt to calibre
 panel-adapt-help = Smooths thin vessels less, so that each keeps its calibre. The pass band is that of the wide ones.
 panel-guard = No crossings
 panel-guard-help = Smooths less where triangles would be drawn through others: at folds, between vessels.
+panel-hold-caps = Hold caps
+panel-hold-caps-help = Flat ends of closed vessels stay flat and keep their areas: inlets and outlets of a flow.
 panel-volume-held = Preserve volume
 panel-volume-held-help = Gives back what smoothing takes off, where it does: open ends capped, held to 0.01 %.
 panel-smoothed-less = { $count ->
@@ -369,6 +371,10 @@ panel-slivers = Slivers
 panel-slivers-help = Triangles with an angle below 10 degrees, as a part of all
 panel-self-intersecting = Self-intersecting
 panel-self-intersecting-help = Triangles that run into others
+panel-caps = Inlets and outlets
+panel-caps-help = Flat ends, and by how much their areas change
+# How many, and the least and largest change in percent.
+panel-caps-changed = { $count }, { $least } to { $most } %
 panel-smallest-lumen = Smallest lumen
 panel-smallest-lumen-help = Diameter of the vessels where they are narrowest: of the largest ball inside that touches the wall
 

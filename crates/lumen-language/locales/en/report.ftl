@@ -86,6 +86,7 @@ report-volume-change = Change of volume
 report-area-change = Change of area
 report-half-gain = Half gain of smoothing
 report-crossing = Triangles that cross
+report-caps = Inlets and outlets
 report-smallest-lumen = Smallest lumen
 report-measured = Vessels measured
 report-output-fingerprint = Surface's fingerprint

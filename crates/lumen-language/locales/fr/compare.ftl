@@ -83,6 +83,7 @@ compare-volume-preserved = volume préservé
 compare-suits = adapté à la surface
 compare-adapted = adapté au calibre
 compare-no-crossing = sans croisement
+compare-caps-held = bouchons gardés
 compare-method = méthode { $value }
 compare-feature-angle = angle d'arête { $value }°
 compare-thin-spared = vaisseaux fins ménagés

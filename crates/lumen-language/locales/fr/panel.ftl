@@ -202,6 +202,8 @@ panel-adapt = Adapter au calibre
 panel-adapt-help = Lisse moins les vaisseaux fins, pour que chacun garde son calibre. La bande passante est celle des vaisseaux larges.
 panel-guard = Sans croisement
 panel-guard-help = Lisse moins où des triangles en traverseraient d'autres : aux plis, entre les vaisseaux.
+panel-hold-caps = Garder les bouchons
+panel-hold-caps-help = Les bouts plats des vaisseaux fermés restent plats et gardent leur surface : entrées et sorties d'un écoulement.
 panel-volume-held = Préserver le volume
 panel-volume-held-help = Rend ce que le lissage enlève, là où il l'enlève : extrémités ouvertes bouchées, à 0,01 % près.
 panel-smoothed-less = { $count ->
@@ -373,6 +375,10 @@ panel-slivers = Aplatis
 panel-slivers-help = Triangles aplatis, avec un angle de moins de 10 degrés, en part du total
 panel-self-intersecting = Auto-intersections
 panel-self-intersecting-help = Triangles qui en traversent d'autres
+panel-caps = Entrées et sorties
+panel-caps-help = Bouts plats, et de combien leurs surfaces changent
+# How many, and the least and largest change in percent.
+panel-caps-changed = { $count }, { $least } à { $most } %
 panel-smallest-lumen = Lumière minimale
 panel-smallest-lumen-help = Diamètre des vaisseaux au plus étroit : de la plus grande boule intérieure qui touche la paroi
 

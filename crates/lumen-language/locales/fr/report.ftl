@@ -81,6 +81,7 @@ report-volume-change = Variation du volume
 report-area-change = Variation de l'aire
 report-half-gain = Demi-gain du lissage
 report-crossing = Auto-intersections
+report-caps = Entrées et sorties
 report-smallest-lumen = Lumière minimale
 report-measured = Vaisseaux mesurés
 report-output-fingerprint = Empreinte de surface

@@ -47,6 +47,7 @@ verdict-choose-pieces-help = Montre ce qui est omis ; un clic sur un morceau gar
 verdict-fill = Combler
 verdict-split = Séparer
 verdict-no-crossings = Sans croisement
+verdict-hold-caps = Garder les bouchons
 
 ## Constats sur le fichier
 
@@ -94,6 +95,14 @@ verdict-crossing-before = { $count ->
     [one] { $count } triangle en croise d'autres ; { $before } avant la réduction.
    *[other] { $count } triangles en croisent d'autres ; { $before } avant la réduction.
 }
+verdict-caps-rounded = { $count ->
+    [one] Une entrée ou sortie n'est plus plate.
+   *[other] { $count } entrées et sorties ne sont plus plates.
+}
+verdict-caps = { $count ->
+    [one] La surface d'une entrée ou sortie change de { $percent } %.
+   *[other] Les surfaces de { $count } entrées et sorties changent, une de { $percent } %.
+}
 verdict-narrower = À l'ouverture, la { $name } est plus étroite de { $percent } % que de part et d'autre, sur { $length } mm : { $reference }.
 verdict-wider = À l'ouverture, la { $name } est plus large de { $percent } % que de part et d'autre, sur { $length } mm : { $reference }.
 verdict-few-iterations = Trop peu d'itérations pour cette bande passante : il en faut davantage pour lisser.
@@ -112,6 +121,8 @@ verdict-place-wider = { $percent } % plus large
 verdict-place-pinched = pincé
 verdict-place-lost = perdu
 verdict-place-shut = Fermé
+verdict-place-rounded = plus plate
+verdict-place-cap = surface { $percent } %
 
 ## Jusqu'où une réduction est sûre : des phrases sans point final
 

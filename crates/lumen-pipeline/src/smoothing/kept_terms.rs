@@ -33,7 +33,9 @@ impl KeptTerms {
     /// Whether another filter for `settings` on `kept` is but a sum of these.
     pub(crate) fn suit(&self, kept: &Arc<Surface>, settings: &Smoothing) -> bool {
         let degree = settings.iterations as usize;
-        Arc::ptr_eq(&self.of, &kept.smoothed_as(settings)) && self.boundary == settings.boundary && degree <= self.terms.degree()
+        Arc::ptr_eq(&self.of, &kept.smoothed_as(settings))
+            && self.boundary == settings.boundary
+            && degree <= self.terms.degree()
     }
 
     /// The terms.

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::{Row, Run, SmoothedIndex};
+use crate::caps::cap_areas;
 use crate::pinch::first_pinch_of;
 use crate::results::{LevelMeasures, SmoothedMeasures};
 use crate::settings::Target;
@@ -69,7 +70,7 @@ pub(super) const OF_LEVEL: Row = Row {
 /// The samples are measured in one piece, of up to 2 microseconds each.
 fn start_level(store: &Store) -> Option<Run> {
     let now = &store.now;
-    let (reduced, smoothed) = (now.reduced.clone()?, now.smoothed.clone()?);
+    let (reduced, smoothed, kept) = (now.reduced.clone()?, now.smoothed.clone()?, now.kept.clone()?);
     let samples: Arc<[Ball]> = now.smoothed_measures.as_ref()?.samples.clone();
     let index = now.indices.level.clone();
     Some(Run::new(move |yielder, outbox| async move {
@@ -77,7 +78,8 @@ fn start_level(store: &Store) -> Option<Run> {
         let known = Known { index, crosses_nothing: false };
         let measured = shape_in_slices(mesh, topology, known, &yielder.part(SMOOTHED..1.0)).await;
         let narrowing = narrowing(&samples, mesh, topology, &measured.index);
-        let found = LevelMeasures { shape: measured.shape, narrowing };
+        let caps = kept.caps.as_ref().map_or_else(Vec::new, |capped| cap_areas(&capped.caps, mesh));
+        let found = LevelMeasures { shape: measured.shape, narrowing, caps };
         outbox.leave(move |store| {
             store.now.level_measures = Some(Arc::new(found));
             store.now.indices.release(smoothed.mesh.triangles.len());

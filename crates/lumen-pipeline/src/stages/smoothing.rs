@@ -115,7 +115,9 @@ impl Filtering {
         let kept = &self.kept;
         let widths = match self.widths.take() {
             // Beside a cap the balls within are as small as its corner is near.
-            _ if !Arc::ptr_eq(kept, &self.walls) => widths(mesh, topology, None, &yielder.part(0.0..0.8)).await.0.into(),
+            _ if !Arc::ptr_eq(kept, &self.walls) => {
+                widths(mesh, topology, None, &yielder.part(0.0..0.8)).await.0.into()
+            }
             Some(known) => known,
             None => {
                 let (found, index) = widths(mesh, topology, self.index.take(), &yielder.part(0.0..0.8)).await;

@@ -93,6 +93,28 @@ messages! {
                 _ => format!("{now} triangles run into others; {did} did before the reduction."),
             }
         },
+        /// Inlets or outlets are not flat any more.
+        "verdict-caps-rounded" CapsRounded {
+            /// How many.
+            count: usize,
+        } => {
+            match count {
+                1 => "An inlet or outlet is no longer flat.".to_owned(),
+                _ => format!("{} inlets and outlets are no longer flat.", grouped(count)),
+            }
+        },
+        /// Inlets or outlets change their areas.
+        "verdict-caps" Caps {
+            /// How many.
+            count: usize,
+            /// The largest change, in percent.
+            percent: f64 [1],
+        } => {
+            match count {
+                1 => format!("The area of an inlet or outlet changes by {percent:.1} %."),
+                _ => format!("The areas of {} inlets and outlets change, one by {percent:.1} %.", grouped(count)),
+            }
+        },
         /// A vessel is narrower than on either side.
         "verdict-narrower" Narrower {
             /// Which.
@@ -181,6 +203,13 @@ messages! {
         "verdict-place-lost" Lost => "lost",
         /// A vessel is drawn shut.
         "verdict-place-shut" Shut => "Drawn shut",
+        /// An inlet or outlet is not flat any more.
+        "verdict-place-rounded" Rounded => "no longer flat",
+        /// An inlet or outlet changes its area.
+        "verdict-place-cap" Cap {
+            /// In percent.
+            percent: f64 [1],
+        } => "area {percent:.1} %",
     } or {
         /// A vessel changes its calibre.
         Calibre(PlaceText),
@@ -222,6 +251,8 @@ messages! {
         "verdict-split" Split => "Split",
         /// Smoothing makes no triangles cross.
         "verdict-no-crossings" NoCrossings => "No crossings",
+        /// Flat caps stay flat.
+        "verdict-hold-caps" HoldCaps => "Hold the caps",
     } or {
         /// Settings of the filter that have a name.
         Smoothing(Preset),

@@ -13,6 +13,9 @@ use lumen_mesh::mending::{FaultCounts, FaultKind, FaultPlace};
 use lumen_vessel::certificate::{BranchCalibre, CalibreError, Certificate, Verdict as Calibre};
 use lumen_vessel::summary::{in_order, place, summary};
 
+/// The change of an inlet's or outlet's area that is allowed, in percent: it is the boundary condition of a flow.
+const AREA_PERCENT: f64 = 0.5;
+
 /// What becomes of that which is not known of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rest {
@@ -258,6 +261,7 @@ fn of_report(known: &Known<'_>, report: &Report) -> Vec<Finding> {
         let guard = remedy(known, RemedyLabel::NoCrossings, |settings| settings.smoothing.guard = true);
         findings.push(Finding::grave(what).helped_by(guard));
     }
+    findings.extend(caps(known, report));
     findings.extend(report.volume_warning().map(|what| Finding::grave(what).helped_by(suit(known))));
     findings.extend(report.mending_warnings().into_iter().map(Finding::note));
     findings.extend(known.shortfall.map(|shortfall| Finding::note(shortfall.message())));
@@ -269,6 +273,21 @@ fn of_report(known: &Known<'_>, report: &Report) -> Vec<Finding> {
     }
     findings.extend(report.volume_held_warning().map(Finding::note));
     findings
+}
+
+/// The flat caps that change their areas by more than [`AREA_PERCENT`].
+fn caps(known: &Known<'_>, report: &Report) -> Option<Finding> {
+    let changed = report.caps.iter().flatten().filter(|cap| cap.change_percent().abs() > AREA_PERCENT);
+    let count = changed.clone().count();
+    let worst = changed.reduce(|a, b| if b.change_percent().abs() > a.change_percent().abs() { b } else { a })?;
+    let percent = worst.change_percent();
+    let hold = remedy(known, RemedyLabel::HoldCaps, |settings| settings.smoothing.hold_caps = true);
+    let (what, label) = if worst.is_flat() {
+        (FindingKind::Caps { count, percent }, PlaceLabel::Cap { percent })
+    } else {
+        (FindingKind::CapsRounded { count }, PlaceLabel::Rounded)
+    };
+    Some(Finding::grave(what).helped_by(hold).at(worst.centre, worst.diameter_mm(), label))
 }
 
 fn calibre(known: &Known<'_>) -> Option<Finding> {
