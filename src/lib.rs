@@ -55,6 +55,7 @@ pub use lumen_language::say;
 pub use lumen_mesh as mesh;
 pub use lumen_mesh::{parallel, task};
 pub use lumen_pipeline as pipeline;
+pub use lumen_prepare as prepare;
 #[cfg(feature = "gui")]
 pub use lumen_render as render;
 pub use lumen_transfer as transfer;

@@ -26,6 +26,7 @@ mod pictures;
 #[path = "no_pictures.rs"]
 mod pictures;
 mod places;
+mod prepare;
 mod report;
 mod rows;
 mod running;
@@ -90,6 +91,8 @@ pub enum Command {
     Phantom(phantom::Phantom),
     /// Write a page for the record, as PDF or HTML: fingerprint, settings, numbers, verdict, vessels, pictures
     Report(report::WriteReport),
+    /// Make a surface ready for a flow or structure solver
+    Prepare(prepare::Prepare),
     /// Write the surface in a scan or a mask
     Surface(surface::Surface),
     /// Show what reduction does to a guidewire: trials at many rates beside the unreduced surface
@@ -112,6 +115,7 @@ impl Command {
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
             Self::Report(command) => command.run(),
+            Self::Prepare(command) => command.run(),
             Self::Surface(command) => command.run(),
             Self::Sweep(command) => command.run(),
             Self::Tables(command) => command.run(),

@@ -6,6 +6,7 @@ mod batch;
 mod cli;
 #[cfg(feature = "gui")]
 mod figures;
+mod prepare;
 mod privacy;
 mod program;
 mod report;

@@ -5,6 +5,7 @@ pub mod check;
 pub mod clip;
 pub mod ends;
 pub mod extend;
+pub mod prepare;
 pub mod remesh;
 pub mod uncross;
 pub mod write;

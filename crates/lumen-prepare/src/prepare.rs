@@ -1,0 +1,262 @@
+//! All of it in one call: uncross, clip, extend, cap, remesh, check.
+
+use thiserror::Error;
+
+use super::cap::{CapError, CapKind, cap};
+use super::check::{Fate, check};
+use super::clip::{ClipError, Clipped, clip};
+use super::ends::{EndError, Length, OpenEnd, RimError, SurfaceError, check_surface, open_ends, place, propose};
+use super::extend::{ExtendError, Extended, extend};
+use super::remesh::{Deviation, Quality, RemeshError, Remeshed, Sizing, remesh};
+use super::uncross::{UncrossError, Uncrossed, uncross};
+use super::{Patch, PatchKind, Patched};
+use lumen_mesh::task::{Yielder, at_once};
+use lumen_mesh::{Topology, TriMesh, compacted, flat_caps, triangle_area};
+use lumen_vessel::width::widths;
+use lumen_vessel::{Tree, TreeError, tree::End};
+
+/// An extension that would run into something is as long as this part of what is free.
+const OF_FREE: f64 = 0.9;
+
+/// Where vessels are cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ClipAt {
+    /// As near to each end as the vessel is round there.
+    Round,
+    /// At this distance from each end.
+    Distance(Length),
+}
+
+/// What is done to a surface, from top to bottom.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Plan {
+    /// Whether triangles that cross are taken apart first.
+    pub uncross: bool,
+    /// Where ends are cut square to the vessel; `None` leaves them.
+    pub clip: Option<ClipAt>,
+    /// How long the extensions are; `None` for none.
+    pub extend: Option<Length>,
+    /// How ends are closed; `None` leaves them open.
+    pub cap: Option<CapKind>,
+    /// How large triangles are; `None` leaves them as they are.
+    pub remesh: Option<Sizing>,
+}
+
+/// Something that was done otherwise than asked for.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Note {
+    /// An end has no plane.
+    #[error("an end is not cut: {0}")]
+    NoPlane(#[from] EndError),
+    /// A plane does not cut.
+    #[error("an end is not cut: {0}")]
+    NotCut(#[from] ClipError),
+    /// A loop is no end.
+    #[error("an opening is no end: {0}")]
+    NoEnd(#[from] RimError),
+    /// An extension is shorter.
+    #[error("the extension of {name} is {mm:.1} mm long: farther on it would run into something")]
+    Shortened {
+        /// The end.
+        name: String,
+        /// How long it is, in mm.
+        mm: f64,
+    },
+    /// Ends are not extended.
+    #[error("ends are not extended: {0}")]
+    NotExtended(#[from] ExtendError),
+}
+
+/// Why a surface cannot be prepared.
+#[derive(Debug, Error)]
+pub enum PrepareError {
+    /// The surface is broken.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// Ends are to be cut and there is no vessel.
+    #[error("no end can be found: {0}")]
+    Tree(#[from] TreeError),
+    /// Crossing triangles cannot be taken apart.
+    #[error(transparent)]
+    Uncross(#[from] UncrossError),
+    /// An end cannot be closed.
+    #[error(transparent)]
+    Cap(#[from] CapError),
+    /// Its triangles cannot be made anew.
+    #[error(transparent)]
+    Remesh(#[from] RemeshError),
+}
+
+/// A surface that was prepared.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    /// The surface in patches, with their areas.
+    pub surface: Patched,
+    /// What a volume mesher would say.
+    pub fate: Fate,
+    /// What was done otherwise than asked for.
+    pub notes: Vec<Note>,
+    /// What became of triangles that crossed, where that was asked for.
+    pub uncrossed: Option<Uncrossed>,
+    /// How well the triangles are shaped, and how far the surface went from what was remeshed, where it was.
+    pub remeshed: Option<(Quality, Deviation)>,
+}
+
+/// Prepares a surface.
+///
+/// # Errors
+/// [`PrepareError`]. A single end that cannot be cut or extended is a [`Note`].
+pub fn prepare(mesh: TriMesh, plan: &Plan) -> Result<Prepared, PrepareError> {
+    check_surface(&mesh)?;
+    let mut notes = Vec::new();
+    let (mut mesh, uncrossed) = if plan.uncross {
+        let mut found = uncross(&mesh)?;
+        (std::mem::take(&mut found.mesh), Some(found))
+    } else {
+        (mesh, None)
+    };
+    if let Some(at) = plan.clip {
+        mesh = clipped(mesh, at, &mut notes)?;
+    }
+    let mut surface = if plan.extend.is_some() || plan.cap.is_some() {
+        // What is flat and closed is an end like those that are open.
+        let mesh = opened(mesh);
+        let (ends, refused) = open_ends(&mesh)?;
+        notes.extend(refused.into_iter().map(Note::NoEnd));
+        let (mesh, ends) = match plan.extend.filter(|_| !ends.is_empty()) {
+            Some(length) => extended(mesh, ends, length, &mut notes),
+            None => (mesh, ends),
+        };
+        match plan.cap.filter(|_| !ends.is_empty()) {
+            Some(kind) => cap(&mesh, &ends, kind)?,
+            None => Patched::wall(mesh),
+        }
+    } else {
+        in_patches(mesh)
+    };
+    let mut remeshed = None;
+    if let Some(sizing) = &plan.remesh {
+        let radii = radii(&surface);
+        let Remeshed { surface: new, quality, deviation, .. } = remesh(&surface, &radii, sizing)?;
+        (surface, remeshed) = (new, Some((quality, deviation)));
+    }
+    measure(&mut surface);
+    let fate = check(&surface);
+    Ok(Prepared { surface, fate, notes, uncrossed, remeshed })
+}
+
+/// The surface cut at its ends, as many of them as can be.
+fn clipped(mesh: TriMesh, at: ClipAt, notes: &mut Vec<Note>) -> Result<TriMesh, PrepareError> {
+    let tree = Tree::new(&mesh)?;
+    let mut planes = match at {
+        ClipAt::Round => {
+            let proposal = propose(&mesh, &tree)?;
+            notes.extend(proposal.refused.into_iter().map(Note::NoPlane));
+            proposal.planes
+        }
+        ClipAt::Distance(distance) => {
+            let mut planes = Vec::new();
+            for branch in tree.branches() {
+                for at_end in [false, true].into_iter().filter(|&at| branch.ends[usize::from(at)] != End::Joint) {
+                    match place(&mesh, &tree, branch.id, at_end, distance) {
+                        Ok(plane) => planes.push(plane),
+                        Err(error) => notes.push(error.into()),
+                    }
+                }
+            }
+            planes
+        }
+    };
+    loop {
+        let error = match clip(&mesh, &planes) {
+            Ok(Clipped { mesh, .. }) => return Ok(mesh),
+            Err(error) => error,
+        };
+        let Some(end) = error.end().filter(|&end| end < planes.len()) else {
+            notes.push(error.into());
+            return Ok(mesh);
+        };
+        planes.remove(end);
+        notes.push(error.into());
+    }
+}
+
+/// The surface without its flat caps.
+fn opened(mesh: TriMesh) -> TriMesh {
+    let caps = flat_caps(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+    let mut is_cap = vec![false; mesh.triangles.len()];
+    caps.iter().flat_map(|cap| &cap.triangles).for_each(|&t| is_cap[t as usize] = true);
+    let walls = mesh.triangles.iter().zip(&is_cap).filter(|(_, is_cap)| !**is_cap).map(|(&t, _)| t).collect();
+    compacted(&mesh.positions, walls)
+}
+
+/// The surface and its ends with extensions, as long as there is room for.
+fn extended(mesh: TriMesh, ends: Vec<OpenEnd>, length: Length, notes: &mut Vec<Note>) -> (TriMesh, Vec<OpenEnd>) {
+    let mut lengths = vec![length; ends.len()];
+    // Each time at least one is shorter.
+    for _ in 0..=ends.len() {
+        match extend(&mesh, &ends, &lengths) {
+            Ok(Extended { mesh, ends, .. }) => return (mesh, ends),
+            Err(ExtendError::Collides { free }) => {
+                for (name, mm) in free {
+                    let Some(i) = ends.iter().position(|end| end.name == name) else { continue };
+                    let mm = OF_FREE * mm;
+                    lengths[i] = Length::Mm(mm);
+                    notes.retain(|note| !matches!(note, Note::Shortened { name: known, .. } if *known == name));
+                    notes.push(Note::Shortened { name, mm });
+                }
+            }
+            Err(error) => {
+                notes.push(error.into());
+                break;
+            }
+        }
+    }
+    (mesh, ends)
+}
+
+/// The surface with a patch for each flat cap.
+fn in_patches(mesh: TriMesh) -> Patched {
+    let mut caps = flat_caps(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+    caps.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
+    let mut surface = Patched::wall(mesh);
+    for (i, cap) in caps.into_iter().enumerate() {
+        let (kind, name) = match i {
+            0 => (PatchKind::Inlet, "inlet".to_owned()),
+            _ => (PatchKind::Outlet, format!("outlet_{i}")),
+        };
+        cap.triangles.iter().for_each(|&t| surface.of_triangle[t as usize] = i as u32 + 1);
+        let (centre, normal) = (cap.centre.to_array(), cap.normal.to_array());
+        surface.patches.push(Patch { id: i as u32 + 2, name, kind, centre, normal, area_mm2: cap.area_mm2 });
+    }
+    surface
+}
+
+/// The radius of the vessel at each vertex, in mm: of the wall alone, as balls in the corner of a cap are small.
+fn radii(surface: &Patched) -> Vec<f32> {
+    let Patched { mesh, of_triangle, .. } = surface;
+    let walls: Vec<[u32; 3]> = mesh.triangles.iter().zip(of_triangle).filter(|(_, patch)| **patch == 0).map(|(&t, _)| t).collect();
+    let wall = TriMesh { positions: mesh.positions.clone(), triangles: walls };
+    let topology = Topology::new(wall.positions.len(), &wall.triangles);
+    let (mut radii, _) = at_once(widths(&wall, &topology, None, &Yielder::never()));
+    // What is of a cap alone is as its patch.
+    for (triangle, &patch) in mesh.triangles.iter().zip(of_triangle) {
+        let Some(patch) = surface.patches.get(patch as usize).filter(|patch| patch.kind != PatchKind::Wall) else { continue };
+        for v in triangle {
+            let known = &mut radii[*v as usize];
+            *known = known.min(patch.radius_mm() as f32);
+        }
+    }
+    radii
+}
+
+/// Measures the areas of the patches.
+fn measure(surface: &mut Patched) {
+    let mut areas = vec![0.0; surface.patches.len()];
+    for (t, &patch) in surface.of_triangle.iter().enumerate() {
+        areas[patch as usize] += triangle_area(surface.mesh.corners(t));
+    }
+    for (patch, area) in surface.patches.iter_mut().zip(areas) {
+        patch.area_mm2 = area;
+    }
+}

@@ -1,0 +1,188 @@
+//! `lumen prepare`: a surface made ready for a flow or structure solver.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow};
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::misuse::misuse;
+use super::places::write_whole;
+use super::rows::row;
+use super::source::{self, UnitOption};
+use super::{interrupt, places};
+use crate::io::Imported;
+use crate::prepare::cap::CapKind;
+use crate::prepare::ends::Length;
+use crate::prepare::prepare::{ClipAt, Plan, Prepared, prepare};
+use crate::prepare::remesh::Sizing;
+use crate::prepare::write::SolverFormat;
+
+/// Makes a surface ready for a solver: ends cut square, extended and capped, triangles as large as the calibre asks for,
+/// patches with names.
+#[derive(Debug, Args)]
+pub struct Prepare {
+    /// A surface file, or sample:aorta, sample:coronary
+    file: String,
+    /// The folder to write into
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Take triangles that cross apart first
+    #[arg(long)]
+    uncross: bool,
+    /// Cut the ends square to the vessel: "round" for where each is round, or so far in: radii, or mm as in 3mm
+    #[arg(long, value_name = "WHERE", value_parser = clip_at)]
+    clip: Option<ClipAt>,
+    /// Extend each end by so many radii, or mm as in 30mm
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    extend: Option<Length>,
+    /// Close each end: fan, planar (evenly meshed) or smooth
+    #[arg(long, value_name = "KIND", value_parser = cap_kind)]
+    cap: Option<CapKind>,
+    /// Make triangles anew, with so many edges around a vessel
+    #[arg(long, value_name = "N")]
+    remesh: Option<f64>,
+    /// The shortest edge, in mm [default: 0.1]
+    #[arg(long, value_name = "MM", requires = "remesh")]
+    least: Option<f64>,
+    /// The longest edge, in mm [default: 5]
+    #[arg(long, value_name = "MM", requires = "remesh")]
+    largest: Option<f64>,
+    /// How far the new triangles may lie from the surface where it bends, in mm
+    #[arg(long, value_name = "MM", requires = "remesh")]
+    max_deviation: Option<f64>,
+    /// What to write: stl, msh, inp, vtp, simvascular; a JSON of the patches comes with it
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format, default_value = "vtp,stl")]
+    format: Vec<SolverFormat>,
+    /// The unit of the numbers in the file: mm, cm or m; auto takes the one in which the size would be that of vessels,
+    /// where it is not and only one would do
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<UnitOption>,
+}
+
+/// A number of radii, or of mm where that stands behind it.
+fn length(text: &str) -> Result<Length, String> {
+    let (number, of): (&str, fn(f64) -> Length) = match text.strip_suffix("mm") {
+        Some(number) => (number.trim(), Length::Mm),
+        None => (text, Length::Radii),
+    };
+    let number = number.parse().ok().filter(|number: &f64| number.is_finite() && *number >= 0.0);
+    number.map(of).ok_or_else(|| format!("{text} is no length: a number of radii is, or of mm as in 3mm"))
+}
+
+fn clip_at(text: &str) -> Result<ClipAt, String> {
+    if text == "round" { Ok(ClipAt::Round) } else { length(text).map(ClipAt::Distance) }
+}
+
+fn cap_kind(text: &str) -> Result<CapKind, String> {
+    match text {
+        "fan" => Ok(CapKind::Fan),
+        "planar" => Ok(CapKind::Planar),
+        "smooth" => Ok(CapKind::Smooth),
+        _ => Err(format!("{text} is no kind of cap; there are fan, planar, smooth")),
+    }
+}
+
+fn format(text: &str) -> Result<SolverFormat, String> {
+    let of = |format: &SolverFormat| serde_json::to_value(format).is_ok_and(|name| name == text);
+    let known = SolverFormat::ALL.into_iter().filter(|format| *format != SolverFormat::Json).find(of);
+    known.ok_or_else(|| format!("{text} is no format; there are stl, msh, inp, vtp, simvascular"))
+}
+
+impl Prepare {
+    /// Prepares the surface and writes it.
+    pub(super) fn run(&self) -> Result<()> {
+        places::check([Path::new(&self.file)], [("the folder".to_owned(), &*self.output)])?;
+        interrupt::listen()?;
+        let Imported { mesh, report, .. } = source::read_with(&self.file, self.unit, &Default::default())?;
+        let before = mesh.triangles.len();
+        let found = prepare(mesh, &self.plan()?).map_err(|error| anyhow!("the surface cannot be prepared: {error}"))?;
+        interrupt::check()?;
+        let stem = Path::new(&report.name).file_stem().map_or("surface".into(), |stem| stem.to_string_lossy().into_owned());
+        let stem = stem.replace([':', '/', '\\'], "-");
+        for format in &self.format {
+            for (name, bytes) in format.written(&found.surface, &stem)? {
+                self.write(&name, &bytes)?;
+            }
+        }
+        self.write(&format!("{stem}.json"), &summary(&found)?)?;
+        print(&found, before, &self.output);
+        Ok(())
+    }
+
+    fn plan(&self) -> Result<Plan> {
+        let remesh = self.remesh.map(|around| {
+            let default = Sizing::default();
+            Sizing {
+                around,
+                least_mm: self.least.unwrap_or(default.least_mm),
+                largest_mm: self.largest.unwrap_or(default.largest_mm),
+                max_deviation_mm: self.max_deviation,
+                ..default
+            }
+        });
+        let plan = Plan { uncross: self.uncross, clip: self.clip, extend: self.extend, cap: self.cap, remesh };
+        if plan == Plan::default() {
+            return Err(misuse("nothing is asked for: say --uncross, --clip, --extend, --cap or --remesh"));
+        }
+        Ok(plan)
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) -> Result<()> {
+        let path = self.output.join(name);
+        let folder = path.parent().unwrap_or(&self.output);
+        std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+        write_whole(&path, bytes)
+    }
+}
+
+/// The patches, what a volume mesher would say, and what was done otherwise than asked for.
+fn summary(found: &Prepared) -> Result<Vec<u8>> {
+    let files = SolverFormat::Json.written(&found.surface, "")?;
+    let (_, patches) = files.first().context("no patches")?;
+    let mut summary: Value = serde_json::from_slice(patches)?;
+    let findings = found.fate.findings.iter().map(|finding| {
+        json!({ "text": finding.fault.to_string(), "stops": finding.fault.stops(), "places_mm": finding.places })
+    });
+    summary["is_ready"] = found.fate.is_ready().into();
+    summary["findings"] = findings.collect();
+    summary["notes"] = found.notes.iter().map(ToString::to_string).collect();
+    if let Some((quality, deviation)) = found.remeshed {
+        summary["mean_quality"] = quality.mean.into();
+        summary["least_angle_deg"] = quality.least_angle_deg.into();
+        summary["below_30_deg_percent"] = (100.0 * quality.below_30_deg).into();
+        summary["deviation_mm"] = deviation.to_old_mm.max(deviation.to_new_mm).into();
+    }
+    Ok(serde_json::to_vec_pretty(&summary)?)
+}
+
+fn print(found: &Prepared, before: usize, folder: &Path) {
+    row("triangles", format!("{}, of {before}", found.surface.mesh.triangles.len()));
+    for patch in &found.surface.patches {
+        row(&patch.name, format!("{:.2} mm2, id {}", patch.area_mm2, patch.id));
+    }
+    if let Some(uncrossed) = &found.uncrossed {
+        row("triangles that crossed", format!("{}, {} left", uncrossed.crossing_before, uncrossed.crossing_after));
+    }
+    if let Some((quality, deviation)) = found.remeshed {
+        row(
+            "quality",
+            format!(
+                "{:.3} on the mean, least angle {:.1} degrees, {:.2} % of the triangles below 30",
+                quality.mean,
+                quality.least_angle_deg,
+                100.0 * quality.below_30_deg
+            ),
+        );
+        row("deviation", format!("{:.3} mm", deviation.to_old_mm.max(deviation.to_new_mm)));
+    }
+    row("volume meshers", if found.fate.is_ready() { "will take it" } else { "will not take it" });
+    row("written to", folder.display());
+    for note in &found.notes {
+        eprintln!("lumen: warning: {note}");
+    }
+    for finding in &found.fate.findings {
+        eprintln!("lumen: warning: {}", finding.fault);
+    }
+    println!("Not for clinical decisions.");
+}

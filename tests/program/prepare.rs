@@ -1,0 +1,109 @@
+//! `lumen prepare`: what is written for solvers.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use crate::program::{Folder, json, lumen, succeed};
+
+/// The area of a closed STL's solids, by their names, and its volume by the divergence theorem.
+fn solids(path: &Path) -> (Vec<(String, f64)>, f64) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let (mut solids, mut volume) = (Vec::new(), 0.0);
+    let mut corners: Vec<glam::DVec3> = Vec::new();
+    for line in text.lines().map(str::trim) {
+        if let Some(name) = line.strip_prefix("solid ") {
+            solids.push((name.split_whitespace().next().unwrap().to_owned(), 0.0));
+        } else if let Some(numbers) = line.strip_prefix("vertex ") {
+            let numbers: Vec<f64> = numbers.split_whitespace().map(|number| number.parse().unwrap()).collect();
+            corners.push(glam::DVec3::from_slice(&numbers));
+        } else if line == "endfacet" {
+            let [a, b, c] = corners[..] else { panic!("a triangle") };
+            solids.last_mut().unwrap().1 += (b - a).cross(c - a).length() / 2.0;
+            volume += a.dot(b.cross(c)) / 6.0;
+            corners.clear();
+        }
+    }
+    (solids, volume)
+}
+
+#[test]
+fn the_aorta_is_clipped_extended_capped_and_remeshed_for_every_solver() {
+    let folder = Folder::new("prepare");
+    let out = folder.file("out");
+    let options = ["--clip", "round", "--extend", "3", "--cap", "planar", "--remesh", "12", "-o", &out];
+    let printed =
+        succeed(&[&["prepare", "sample:aorta", "--format", "stl,msh,inp,vtp,simvascular"], &options[..]].concat());
+    assert!(printed.contains("will take it") && printed.ends_with("Not for clinical decisions.\n"), "{printed}");
+    let out = Path::new(&out);
+    let files: BTreeSet<String> = walk(out);
+    let of = |ending: &str| files.iter().filter(|name| name.ends_with(ending)).count();
+    assert_eq!((of(".stl"), of(".msh"), of(".inp"), of(".json")), (1, 1, 1, 1), "{files:?}");
+    let named = |ending: &str| out.join(files.iter().find(|name| name.ends_with(ending)).unwrap());
+    let patches = json(named(".json").to_str().unwrap());
+    assert_eq!(patches["is_ready"], true);
+    assert!(patches["mean_quality"].as_f64().unwrap() > 0.95 && patches["notice"] == "Not for clinical decisions.");
+    let (solids, volume) = solids(&named(".stl"));
+    assert!(volume > 0.0, "outwards");
+    let names: Vec<&str> = solids.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(&names[..3], ["wall", "inlet", "outlet_1"]);
+    for (patch, (name, area)) in patches["patches"].as_array().unwrap().iter().zip(&solids) {
+        assert_eq!(patch["name"], **name);
+        assert!((patch["area_mm2"].as_f64().unwrap() / area - 1.0).abs() < 1e-3, "{name}");
+    }
+    // Each patch has a file of its own for SimVascular, the wall among them.
+    assert_eq!(files.iter().filter(|name| name.contains("mesh-surfaces/")).count(), names.len(), "{files:?}");
+    let inspected = succeed(&["inspect", named(".stl").to_str().unwrap(), "--json"]);
+    let inspected: serde_json::Value = serde_json::from_str(&inspected).unwrap();
+    assert_eq!((inspected["boundary_edges"].as_u64(), inspected["components"].as_u64()), (Some(0), Some(1)));
+}
+
+/// The files below a folder, by their ways from it.
+fn walk(folder: &Path) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if path.is_dir() {
+            found.extend(walk(&path).into_iter().map(|below| format!("{name}/{below}")));
+        } else {
+            found.insert(name);
+        }
+    }
+    found
+}
+
+#[test]
+fn a_capped_model_keeps_its_caps_as_patches_of_their_areas() {
+    let folder = Folder::new("prepare-capped");
+    let (file, out) = (folder.file("tube.ply"), folder.file("out"));
+    // 48 sides in a circle of 2 mm.
+    let tube = lumen::mesh::shapes::capped(48, 60, 30.0, 2.0);
+    std::fs::write(&file, lumen::io::write(&tube, None, lumen::io::Format::Ply).unwrap()).unwrap();
+    succeed(&["prepare", &file, "--remesh", "16", "-o", &out]);
+    let patches = json(&format!("{out}/tube.json"));
+    let polygon = 48.0 * 2.0 * (std::f64::consts::TAU / 48.0).sin();
+    let [wall, inlet, outlet] = &patches["patches"].as_array().unwrap()[..] else { panic!("{patches}") };
+    assert!((wall["area_mm2"].as_f64().unwrap() / (std::f64::consts::TAU * 2.0 * 30.0) - 1.0).abs() < 0.01);
+    for end in [inlet, outlet] {
+        assert!((end["area_mm2"].as_f64().unwrap() / polygon - 1.0).abs() < 0.005, "{end}");
+        assert!((end["normal"][2].as_f64().unwrap().abs() - 1.0).abs() < 1e-4, "{end}");
+    }
+}
+
+#[test]
+fn what_cannot_be_prepared_gets_a_sentence_and_no_file() {
+    let folder = Folder::new("prepare-refused");
+    let out = folder.file("out");
+    for (arguments, status, sentence) in [
+        (&[][..], 2, "nothing is asked for"),
+        (&["--clip", "-1"], 2, "is no length"),
+        (&["--cap", "round"], 2, "there are fan, planar, smooth"),
+        (&["--cap", "fan", "--format", "step"], 2, "there are stl, msh, inp, vtp, simvascular"),
+        (&["--remesh", "2"], 1, "cannot be prepared"),
+    ] {
+        let refused = lumen(&[&["prepare", "sample:aorta", "-o", &out], arguments].concat());
+        let error = String::from_utf8_lossy(&refused.stderr);
+        assert_eq!(refused.status.code(), Some(status), "{arguments:?}: {error}");
+        assert!(error.contains(sentence) && !Path::new(&out).exists(), "{arguments:?}: {error}");
+    }
+}
