@@ -89,10 +89,10 @@ pub enum Command {
     Optimise(optimise::Optimise),
     /// Write one of the vessel trees that Lumen makes itself
     Phantom(phantom::Phantom),
-    /// Write a page for the record, as PDF or HTML: fingerprint, settings, numbers, verdict, vessels, pictures
-    Report(report::WriteReport),
     /// Make a surface ready for a flow or structure solver
     Prepare(prepare::Prepare),
+    /// Write a page for the record, as PDF or HTML: fingerprint, settings, numbers, verdict, vessels, pictures
+    Report(report::WriteReport),
     /// Write the surface in a scan or a mask
     Surface(surface::Surface),
     /// Show what reduction does to a guidewire: trials at many rates beside the unreduced surface
@@ -114,8 +114,8 @@ impl Command {
             Self::Mend(command) => command.run(),
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
-            Self::Report(command) => command.run(),
             Self::Prepare(command) => command.run(),
+            Self::Report(command) => command.run(),
             Self::Surface(command) => command.run(),
             Self::Sweep(command) => command.run(),
             Self::Tables(command) => command.run(),
