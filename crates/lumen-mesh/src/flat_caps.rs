@@ -6,7 +6,8 @@
 
 use glam::DVec3;
 
-use super::{Topology, TriMesh, cut};
+use super::task::{Yielder, at_once, blocks};
+use super::{Topology, TriMesh, cut, parallel};
 
 /// Cosine of the angle up to which triangles belong to the plane of a cap's largest: 2 degrees.
 const FLAT: f64 = 0.999_390_827_019_095_8;
@@ -26,6 +27,10 @@ const ASIDE: f64 = 4.0;
 const WIDER: f64 = 2.2;
 /// Off the plane, in radii of the cap, a corner of a cap lies at most.
 const OFF_PLANE: f64 = 0.01;
+
+/// Triangles between two looks at the clock, and those that a core works on in one go.
+const TRIANGLES: usize = 1 << 15;
+const PIECE: usize = 4096;
 
 /// A flat end of a closed vessel.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +56,12 @@ impl FlatCap {
 
 /// The flat caps of a surface whose triangles have the adjacency `topology`, by their first triangle.
 pub fn flat_caps(mesh: &TriMesh, topology: &Topology) -> Vec<FlatCap> {
-    let search = Search::new(mesh, topology);
+    at_once(flat_caps_in_slices(mesh, topology, &Yielder::never()))
+}
+
+/// As [`flat_caps`], resting after some triangles.
+pub async fn flat_caps_in_slices(mesh: &TriMesh, topology: &Topology, yielder: &Yielder) -> Vec<FlatCap> {
+    let search = Search::new(mesh, topology, yielder).await;
     let mut caps: Vec<FlatCap> = search.regions().filter_map(|region| search.cap(region)).collect();
     let mut owner = vec![u32::MAX; mesh.positions.len()];
     let mut touches = vec![false; caps.len()];
@@ -88,16 +98,42 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(mesh: &'a TriMesh, topology: &'a Topology) -> Self {
+    async fn new(mesh: &'a TriMesh, topology: &'a Topology, yielder: &Yielder) -> Self {
         let normal = |t: usize| {
             let [a, b, c] = mesh.corners(t).map(|p| p.as_dvec3());
             (b - a).cross(c - a).normalize_or_zero()
         };
-        let normals: Vec<DVec3> = (0..mesh.triangles.len()).map(normal).collect();
-        let mut search =
-            Self { mesh, topology, normals, regions: vec![u32::MAX; mesh.triangles.len()], found: Vec::new() };
-        search.grow();
+        let count = mesh.triangles.len();
+        let mut normals = Vec::with_capacity(count);
+        for block in blocks(count, TRIANGLES) {
+            let first = block.start;
+            let found = parallel::map_ranges(block.len(), PIECE, |range| {
+                range.map(|i| normal(first + i)).collect::<Vec<_>>()
+            });
+            normals.extend(found.into_iter().flatten());
+            yielder.rest(0.3 * normals.len() as f32 / count as f32).await;
+        }
+        let mut search = Self { mesh, topology, normals, regions: vec![u32::MAX; count], found: Vec::new() };
+        for block in blocks(count, TRIANGLES) {
+            let (first, of) = (block.start, &search);
+            let found = parallel::map_ranges(block.len(), PIECE, |range| {
+                range.map(|i| (first + i) as u32).filter(|&t| of.may_be_at_a_rim(t)).collect::<Vec<_>>()
+            });
+            let end = block.end;
+            found.into_iter().flatten().for_each(|seed| search.grow(seed));
+            yielder.rest(0.3 + 0.7 * end as f32 / count as f32).await;
+        }
         search
+    }
+
+    /// Whether a triangle has a neighbour in its plane, and one across a crease that stands out.
+    fn may_be_at_a_rim(&self, t: u32) -> bool {
+        let normal = self.normals[t as usize];
+        if normal == DVec3::ZERO {
+            return false;
+        }
+        let cosines = self.across(t).map(|other| other.map(|other| self.normals[other as usize].dot(normal)));
+        cosines.iter().flatten().any(|&cosine| cosine > FLAT) && cosines.iter().flatten().any(|&cosine| cosine < CREASE)
     }
 
     /// The triangle on the other side of each edge of `t`; `None` where there is none, or more than one.
@@ -109,29 +145,25 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Groups triangles that lie in one plane with the first of their group.
-    fn grow(&mut self) {
-        let mut stack = Vec::new();
-        for seed in 0..self.mesh.triangles.len() as u32 {
-            if self.regions[seed as usize] != u32::MAX || self.normals[seed as usize] == DVec3::ZERO {
-                continue;
-            }
-            let (number, normal) = (self.found.len() as u32, self.normals[seed as usize]);
-            let mut members = vec![seed];
-            self.regions[seed as usize] = number;
-            stack.push(seed);
-            while let Some(t) = stack.pop() {
-                for other in self.across(t).into_iter().flatten() {
-                    if self.regions[other as usize] == u32::MAX && self.normals[other as usize].dot(normal) > FLAT {
-                        self.regions[other as usize] = number;
-                        members.push(other);
-                        stack.push(other);
-                    }
+    /// Groups `seed` with all that lie in its plane, unless it is in a group.
+    fn grow(&mut self, seed: u32) {
+        if self.regions[seed as usize] != u32::MAX {
+            return;
+        }
+        let (number, normal) = (self.found.len() as u32, self.normals[seed as usize]);
+        let (mut members, mut stack) = (vec![seed], vec![seed]);
+        self.regions[seed as usize] = number;
+        while let Some(t) = stack.pop() {
+            for other in self.across(t).into_iter().flatten() {
+                if self.regions[other as usize] == u32::MAX && self.normals[other as usize].dot(normal) > FLAT {
+                    self.regions[other as usize] = number;
+                    members.push(other);
+                    stack.push(other);
                 }
             }
-            members.sort_unstable();
-            self.found.push(members);
         }
+        members.sort_unstable();
+        self.found.push(members);
     }
 
     fn regions(&self) -> impl Iterator<Item = &Vec<u32>> {

@@ -13,7 +13,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::results::Surface;
 use crate::settings::Smoothing;
-use lumen_mesh::{FlatCap, Measures, Topology, TriMesh, Vec3, flat_caps, oriented_loops, polygon_area, volume_within};
+use lumen_mesh::task::Yielder;
+use lumen_mesh::{
+    FlatCap, Measures, Topology, TriMesh, Vec3, flat_caps_in_slices, oriented_loops, polygon_area, volume_within,
+};
 
 /// Passes in which what is inside of a rim takes the mean of its neighbours' ways.
 const PASSES: usize = 200;
@@ -29,8 +32,13 @@ pub struct Capped {
 
 impl Capped {
     /// Of a surface whose triangles have this adjacency; `None` where it has no caps.
-    pub(crate) fn of(mesh: &Arc<TriMesh>, topology: &Topology, measures: Measures) -> Option<Box<Self>> {
-        let caps = flat_caps(mesh, topology);
+    pub(crate) async fn of(
+        mesh: &Arc<TriMesh>,
+        topology: &Topology,
+        measures: Measures,
+        yielder: &Yielder,
+    ) -> Option<Box<Self>> {
+        let caps = flat_caps_in_slices(mesh, topology, yielder).await;
         if caps.is_empty() {
             return None;
         }
@@ -196,6 +204,7 @@ mod tests {
     use super::*;
     use crate::run::Pipeline;
     use crate::settings::{Decimation, Method, Settings, Target};
+    use lumen_mesh::flat_caps;
     use lumen_mesh::self_intersections;
     use lumen_mesh::shapes::capped;
 

@@ -6,6 +6,7 @@ pub mod clip;
 pub mod ends;
 pub mod extend;
 pub mod prepare;
+
 pub mod remesh;
 pub mod uncross;
 pub mod write;

@@ -44,8 +44,7 @@ fn start(store: &Store) -> Option<Run> {
         let loops = oriented_loops(&topology);
         let measures = measures_within(&mesh, loops.as_deref());
         outbox.tell_apart(Part::KeptAreas, begun);
-        yielder.rest(0.9).await;
-        let caps = Capped::of(&mesh, &topology, measures);
+        let caps = Capped::of(&mesh, &topology, measures, &yielder.part(0.9..1.0)).await;
         let kept = Surface { mesh, topology: Arc::new(topology), loops, measures, caps };
         outbox.leave(|store| {
             store.now.connectivity = Some(found);
