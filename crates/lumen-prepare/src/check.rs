@@ -4,6 +4,9 @@
 //! runs into another, and when no edge is too short or triangle too thin to be told from none. [`check`] finds what breaks
 //! this, and what does not stop a mesher but spoils its mesh or a solver's boundary conditions. It looks at what is there
 //! and changes nothing.
+//!
+//! It errs to one side: TetGen joins duplicates, goes along with edges of three triangles and with triangles without an area
+//! as long as nothing is open or crosses, while Gmsh refuses them, most times.
 
 use glam::{DVec3, Vec3};
 
@@ -89,19 +92,37 @@ messages! {
             count: usize,
             /// The smallest angle in degrees.
             least_degrees: f64 [3],
-        } => { format!("{count} triangles have an angle below 1 degree; the smallest is {least_degrees:.3} degrees.") },
+        } => (
+            count,
+            "One triangle has an angle below 1 degree: {least_degrees:.3} degrees.",
+            "{count} triangles have an angle below 1 degree; the smallest is {least_degrees:.3} degrees."
+        ),
         /// Pieces that do not hang together.
         "check-pieces" Pieces {
             /// How many.
             count: usize,
-        } => "The surface is in {count} pieces.",
+        } => (count, "The surface is in one piece.", "The surface is in {count} pieces."),
     }
 }
 
 impl Fault {
-    /// Whether TetGen or Gmsh makes no volume mesh of it, or a mesh that a solver cannot take.
+    /// Whether TetGen (`-pY`) or Gmsh may refuse the surface for it. Neither minds windings, which way a piece faces, several
+    /// pieces, vertices at one place where nothing is open, or slivers; a solver may.
     pub fn stops(&self) -> bool {
-        !matches!(self, Self::Slivers { .. } | Self::Pieces { .. })
+        match self {
+            Self::Empty
+            | Self::Broken { .. }
+            | Self::OpenRims { .. }
+            | Self::SharedEdges { .. }
+            | Self::Duplicates { .. }
+            | Self::Degenerate { .. }
+            | Self::Crossing { .. } => true,
+            Self::Coincident { .. }
+            | Self::Windings { .. }
+            | Self::InsideOut { .. }
+            | Self::Slivers { .. }
+            | Self::Pieces { .. } => false,
+        }
     }
 }
 
@@ -124,7 +145,7 @@ pub struct Fate {
 }
 
 impl Fate {
-    /// Whether TetGen (`-pY`) and Gmsh make a volume mesh of it whose patches face outwards.
+    /// Whether TetGen (`-pY`) and Gmsh make a volume mesh of it.
     pub fn is_ready(&self) -> bool {
         !self.findings.iter().any(|finding| finding.fault.stops())
     }
