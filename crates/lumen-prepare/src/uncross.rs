@@ -6,7 +6,7 @@
 //! neighbours, until nothing crosses, while the wall leaves its place by no more than [`SHALLOW`] of the local radius. Where
 //! that does not do, the triangles of the place and a ring around them, or two, are cut out and each hole is filled as
 //! `lumen_mesh::mending::fill` does (`recut`). What worked stays; what did not is tried again with more room, in [`ROUNDS`]
-//! rounds at most.
+//! rounds at most, and from the third on by relaxing it as far as it takes.
 //!
 //! Vertices farther than two rings from what crosses in a round keep their bits. A place whose hole opens into the end of a
 //! vessel, or cannot be closed without crossing, stays as it was and is told as [`Remedy::Failed`].
@@ -120,7 +120,7 @@ pub fn uncross(mesh: &TriMesh) -> Result<Uncrossed, UncrossError> {
         if crossing.is_empty() {
             break;
         }
-        let next = mended(&done, &crossing, 1 + usize::from(round > 0));
+        let next = mended(&done, &crossing, round);
         let left = self_intersections(&next.mesh);
         // A round that gains nothing is taken back; the next one cuts wider.
         if left.len() < crossing.len() {
@@ -139,21 +139,22 @@ pub fn uncross(mesh: &TriMesh) -> Result<Uncrossed, UncrossError> {
     Ok(done)
 }
 
-/// One round: what can be pushed apart is, the rest is cut out with `rings` rings around it.
-fn mended(done: &Uncrossed, crossing: &[u32], rings: usize) -> Uncrossed {
+/// One round: what can be pushed apart is, the rest is cut out with a ring around it, later with two. What could not be cut
+/// with two is pushed without bounds.
+fn mended(done: &Uncrossed, crossing: &[u32], round: usize) -> Uncrossed {
     let surface = Surface::of(&done.mesh);
     let clusters = clusters(&surface, crossing);
     let mut next = done.clone();
     let mut pushing = apart::Pushing::new(&surface, &clusters);
     let mut left = Vec::new();
     for (number, cluster) in (0..).zip(&clusters) {
-        match pushing.push(number, cluster) {
+        match pushing.push(number, cluster, round > 1) {
             Some(moved_mm) => next.places.push(cluster.place(&surface, Remedy::PushedApart, moved_mm)),
             None => left.push(cluster),
         }
     }
     next.mesh.positions = pushing.positions;
-    recut::recut(&mut next, &surface, &left, rings);
+    recut::recut(&mut next, &surface, &left, if round == 0 { 1 } else { 2 });
     next
 }
 

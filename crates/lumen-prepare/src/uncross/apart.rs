@@ -6,6 +6,9 @@
 //! neighbours, again and again: it unfolds what is folded. Both end where nothing crosses any more, or where the wall has
 //! left its place by more than [`super::SHALLOW`] of the local radius. Vertices on open edges, and on edges of more than two
 //! triangles, stay.
+//!
+//! A place that could not be cut either is relaxed without that bound, so far as it takes: its walls then end as membranes
+//! over the ring around them.
 
 use glam::{DVec3, Vec3};
 
@@ -15,9 +18,10 @@ use lumen_mesh::{SurfaceIndex, TriMesh, outward_normal};
 use super::clusters::{Cluster, NONE, bounds};
 use super::{SHALLOW, Surface};
 
-/// Steps of a push, and of a relaxation.
+/// Steps of a push, of a relaxation, and of one without bounds, which is looked at after each tenth more.
 const PUSHES: u32 = 12;
 const RELAXATIONS: usize = 30;
+const FREE_RELAXATIONS: usize = 600;
 /// What a vertex of the place and of the rings around it takes of a push.
 const SHARES: [f64; 3] = [1.0, 2.0 / 3.0, 1.0 / 3.0];
 /// Places at which the local radius is measured, at most.
@@ -70,9 +74,12 @@ impl<'a> Pushing<'a> {
     }
 
     /// Pushes a place apart; how far its vertices moved in mm, or `None` where that does not do.
-    pub(super) fn push(&mut self, number: u32, cluster: &Cluster) -> Option<f64> {
+    /// Where it `is_free`, a place that cannot be within the bounds goes as far as it takes.
+    pub(super) fn push(&mut self, number: u32, cluster: &Cluster, is_free: bool) -> Option<f64> {
         let region = self.region(number, cluster);
-        let ways = [self.pushed(&region), self.relaxed(&region)];
+        let ways = [self.pushed(&region), self.relaxed(&region, false)];
+        let free = || if is_free { self.relaxed(&region, true) } else { None };
+        let ways = if ways.iter().all(Option::is_none) { [free(), None] } else { ways };
         let way = ways.into_iter().flatten().reduce(|best, way| if way.moved < best.moved { way } else { best })?;
         for (mobile, &place) in region.mobile.iter().zip(&way.places) {
             self.positions[mobile.vertex as usize] = place;
@@ -139,7 +146,7 @@ impl<'a> Pushing<'a> {
     }
 
     /// The first relaxation that unfolds the place.
-    fn relaxed(&self, region: &Region) -> Option<Way> {
+    fn relaxed(&self, region: &Region, is_free: bool) -> Option<Way> {
         let Surface { mesh, topology, index, .. } = self.surface;
         let mut slot = region.mobile.iter().map(|mobile| mobile.vertex).zip(0usize..).collect::<Vec<_>>();
         slot.sort_unstable();
@@ -153,7 +160,8 @@ impl<'a> Pushing<'a> {
         let corners: Vec<[Vec3; 3]> = region.triangles.iter().map(|&t| mesh.corners(t as usize)).collect();
         let edges = corners.iter().map(|[a, b, c]| f64::from(a.distance(*b) + b.distance(*c) + c.distance(*a)));
         let mean_edge = edges.sum::<f64>() / (3 * corners.len()).max(1) as f64;
-        for _ in 0..RELAXATIONS {
+        let mut look = 1;
+        for step in 1..=if is_free { FREE_RELAXATIONS } else { RELAXATIONS } {
             let half_way = |(mobile, p): (&Mobile, &DVec3)| {
                 let around = topology.neighbours(mobile.vertex);
                 if mobile.ring > 1 || around.is_empty() {
@@ -165,10 +173,18 @@ impl<'a> Pushing<'a> {
             at = region.mobile.iter().zip(&at).map(half_way).collect();
             let places: Vec<Vec3> = at.iter().map(|p| p.as_vec3()).collect();
             let is_near = |p: &Vec3| index.nearest(*p).is_some_and(|near| f64::from(near.distance) <= region.limit);
-            if at.iter().zip(&first).any(|(p, q)| p.distance(*q) > mean_edge) || !places.iter().all(is_near) {
+            let is_beyond = || at.iter().zip(&first).any(|(p, q)| p.distance(*q) > mean_edge);
+            if !is_free && (is_beyond() || !places.iter().all(is_near)) {
                 return None;
             }
+            if step < look {
+                continue;
+            }
+            look = step + 1 + if is_free { step / 10 } else { 0 };
             if !self.crosses(region, &places) {
+                if is_free {
+                    return Some(self.way(region, places));
+                }
                 let sheet = self.sheet(region, &places);
                 let wall = SurfaceIndex::new(&sheet.positions, &sheet.triangles);
                 let is_near =

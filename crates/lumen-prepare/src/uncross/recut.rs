@@ -23,7 +23,7 @@ pub(super) fn recut(next: &mut Uncrossed, surface: &Surface, clusters: &[&Cluste
     }
     let count = next.mesh.positions.len();
     let is_cut = cut_out(surface, clusters, rings);
-    let cut_of = cuts(surface, &is_cut);
+    let cut_of = cuts(surface, clusters, &is_cut);
     let mut kept: Vec<u32> = (0..is_cut.len() as u32).filter(|&t| !is_cut[t as usize]).collect();
     let triangle = |t: u32| surface.mesh.triangles[t as usize];
     let open =
@@ -137,9 +137,13 @@ fn cut_out(surface: &Surface, clusters: &[&Cluster], rings: usize) -> Vec<bool> 
     is_cut
 }
 
-/// For each triangle that is cut, the first of those that it hangs together with: a cut is known by it.
-fn cuts(surface: &Surface, is_cut: &[bool]) -> Vec<u32> {
+/// For each triangle that is cut, the first of those that it hangs together with or shares a place with: a cut is known by
+/// it.
+fn cuts(surface: &Surface, clusters: &[&Cluster], is_cut: &[bool]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..is_cut.len() as u32).collect();
+    for pair in clusters.iter().flat_map(|cluster| cluster.triangles.windows(2)) {
+        union(&mut parent, pair[0], pair[1]);
+    }
     for t in (0..is_cut.len()).filter(|&t| is_cut[t]) {
         for v in surface.mesh.triangles[t] {
             for &other in surface.topology.triangles(v).iter().filter(|&&other| is_cut[other as usize]) {
