@@ -6,13 +6,18 @@
 //! neighbours, until nothing crosses, while the wall leaves its place by no more than [`SHALLOW`] of the local radius. Where
 //! that does not do, the triangles of the place and a ring around them, or two, are cut out and each hole is filled as
 //! `lumen_mesh::mending::fill` does (`recut`). What worked stays; what did not is tried again with more room, in [`ROUNDS`]
-//! rounds at most, and from the third on by relaxing it as far as it takes.
+//! rounds at most, and from the third on on its way to a membrane, however far.
+//!
+//! Where edges have more than two triangles, little can be done: `lumen_mesh::mending::split` comes first. Rims that touch by
+//! rounding are for `lumen_mesh::mending::weld`.
 //!
 //! Vertices farther than two rings from what crosses in a round keep their bits. A place whose hole opens into the end of a
-//! vessel, or cannot be closed without crossing, stays as it was and is told as [`Remedy::Failed`].
+//! vessel, or cannot be closed without crossing, stays as it was and is told as [`Remedy::Failed`]. So does one by which a
+//! whole piece of the surface would be gone.
 
 mod apart;
 mod clusters;
+mod membrane;
 mod recut;
 
 use thiserror::Error;

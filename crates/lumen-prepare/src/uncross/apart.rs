@@ -7,8 +7,8 @@
 //! left its place by more than [`super::SHALLOW`] of the local radius. Vertices on open edges, and on edges of more than two
 //! triangles, stay.
 //!
-//! A place that could not be cut either is relaxed without that bound, so far as it takes: its walls then end as membranes
-//! over the ring around them.
+//! A place that could not be cut either goes, without that bound, as much of the way to a membrane over the rings around it
+//! as it takes (`membrane`).
 
 use glam::{DVec3, Vec3};
 
@@ -16,12 +16,13 @@ use lumen_mesh::crossing::{Face, cross};
 use lumen_mesh::{SurfaceIndex, TriMesh, outward_normal};
 
 use super::clusters::{Cluster, NONE, bounds};
+use super::membrane::membrane;
 use super::{SHALLOW, Surface};
 
-/// Steps of a push, of a relaxation, and of one without bounds, which is looked at after each tenth more.
+/// Steps of a push, of a relaxation, and to a membrane.
 const PUSHES: u32 = 12;
 const RELAXATIONS: usize = 30;
-const FREE_RELAXATIONS: usize = 600;
+const SPANS: u32 = 16;
 /// What a vertex of the place and of the rings around it takes of a push.
 const SHARES: [f64; 3] = [1.0, 2.0 / 3.0, 1.0 / 3.0];
 /// Places at which the local radius is measured, at most.
@@ -77,8 +78,8 @@ impl<'a> Pushing<'a> {
     /// Where it `is_free`, a place that cannot be within the bounds goes as far as it takes.
     pub(super) fn push(&mut self, number: u32, cluster: &Cluster, is_free: bool) -> Option<f64> {
         let region = self.region(number, cluster);
-        let ways = [self.pushed(&region), self.relaxed(&region, false)];
-        let free = || if is_free { self.relaxed(&region, true) } else { None };
+        let ways = [self.pushed(&region), self.relaxed(&region)];
+        let free = || if is_free { self.spanned(&region) } else { None };
         let ways = if ways.iter().all(Option::is_none) { [free(), None] } else { ways };
         let way = ways.into_iter().flatten().reduce(|best, way| if way.moved < best.moved { way } else { best })?;
         for (mobile, &place) in region.mobile.iter().zip(&way.places) {
@@ -146,7 +147,7 @@ impl<'a> Pushing<'a> {
     }
 
     /// The first relaxation that unfolds the place.
-    fn relaxed(&self, region: &Region, is_free: bool) -> Option<Way> {
+    fn relaxed(&self, region: &Region) -> Option<Way> {
         let Surface { mesh, topology, index, .. } = self.surface;
         let mut slot = region.mobile.iter().map(|mobile| mobile.vertex).zip(0usize..).collect::<Vec<_>>();
         slot.sort_unstable();
@@ -160,8 +161,7 @@ impl<'a> Pushing<'a> {
         let corners: Vec<[Vec3; 3]> = region.triangles.iter().map(|&t| mesh.corners(t as usize)).collect();
         let edges = corners.iter().map(|[a, b, c]| f64::from(a.distance(*b) + b.distance(*c) + c.distance(*a)));
         let mean_edge = edges.sum::<f64>() / (3 * corners.len()).max(1) as f64;
-        let mut look = 1;
-        for step in 1..=if is_free { FREE_RELAXATIONS } else { RELAXATIONS } {
+        for _ in 0..RELAXATIONS {
             let half_way = |(mobile, p): (&Mobile, &DVec3)| {
                 let around = topology.neighbours(mobile.vertex);
                 if mobile.ring > 1 || around.is_empty() {
@@ -174,17 +174,10 @@ impl<'a> Pushing<'a> {
             let places: Vec<Vec3> = at.iter().map(|p| p.as_vec3()).collect();
             let is_near = |p: &Vec3| index.nearest(*p).is_some_and(|near| f64::from(near.distance) <= region.limit);
             let is_beyond = || at.iter().zip(&first).any(|(p, q)| p.distance(*q) > mean_edge);
-            if !is_free && (is_beyond() || !places.iter().all(is_near)) {
+            if is_beyond() || !places.iter().all(is_near) {
                 return None;
             }
-            if step < look {
-                continue;
-            }
-            look = step + 1 + if is_free { step / 10 } else { 0 };
             if !self.crosses(region, &places) {
-                if is_free {
-                    return Some(self.way(region, places));
-                }
                 let sheet = self.sheet(region, &places);
                 let wall = SurfaceIndex::new(&sheet.positions, &sheet.triangles);
                 let is_near =
@@ -193,6 +186,22 @@ impl<'a> Pushing<'a> {
             }
         }
         None
+    }
+
+    /// The least part of the way to a membrane that parts the walls.
+    fn spanned(&self, region: &Region) -> Option<Way> {
+        let first: Vec<DVec3> =
+            region.mobile.iter().map(|mobile| self.positions[mobile.vertex as usize].as_dvec3()).collect();
+        let inner: Vec<u32> =
+            region.mobile.iter().filter(|mobile| mobile.ring < 2).map(|mobile| mobile.vertex).collect();
+        let membrane = membrane(&self.surface.topology, &self.positions, &inner);
+        // Those of the second ring stay; they stand last.
+        let ends: Vec<DVec3> = membrane.into_iter().chain(first.iter().skip(inner.len()).copied()).collect();
+        (1..=SPANS).find_map(|step| {
+            let part = f64::from(step) / f64::from(SPANS);
+            let places: Vec<Vec3> = first.iter().zip(&ends).map(|(from, to)| from.lerp(*to, part).as_vec3()).collect();
+            (!self.crosses(region, &places)).then(|| self.way(region, places))
+        })
     }
 
     fn way(&self, region: &Region, places: Vec<Vec3>) -> Way {

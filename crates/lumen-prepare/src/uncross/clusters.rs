@@ -42,7 +42,8 @@ pub(super) fn clusters(surface: &Surface, crossing: &[u32]) -> Vec<Cluster> {
         let face = surface.face(t);
         let (low, high) = bounds(face.corners);
         index.for_each_near(low, high, |other| {
-            if other > t && is_in[other as usize] && cross(&face, &surface.face(other)) {
+            let is_new = other > t && is_in[other as usize] && root(&mut parent, t) != root(&mut parent, other);
+            if is_new && cross(&face, &surface.face(other)) {
                 union(&mut parent, t, other);
             }
         });

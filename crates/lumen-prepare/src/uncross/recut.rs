@@ -66,6 +66,13 @@ pub(super) fn recut(next: &mut Uncrossed, surface: &Surface, clusters: &[&Cluste
             has_failed[cut_of[t] as usize] = true;
         }
     }
+    // So does one by which a piece of the surface would be gone, unless that is as small as an island.
+    let whole = components(count, &surface.mesh.triangles);
+    let mut is_gone: Vec<bool> = whole.triangle_counts.iter().map(|&triangles| triangles >= ISLAND).collect();
+    kept.iter().for_each(|&t| is_gone[whole.of_triangle[t as usize] as usize] = false);
+    for t in (0..is_cut.len()).filter(|&t| is_cut[t] && is_gone[whole.of_triangle[t] as usize]) {
+        has_failed[cut_of[t] as usize] = true;
+    }
     kept.extend((0..is_cut.len() as u32).filter(|&t| is_cut[t as usize] && has_failed[cut_of[t as usize] as usize]));
     kept.sort_unstable();
     let owned: Vec<usize> =
