@@ -6,14 +6,16 @@
 //! neighbours, until nothing crosses, while the wall leaves its place by no more than [`SHALLOW`] of the local radius. Where
 //! that does not do, the triangles of the place and a ring around them, or two, are cut out and each hole is filled as
 //! `lumen_mesh::mending::fill` does (`recut`). What worked stays; what did not is tried again with more room, in [`ROUNDS`]
-//! rounds at most, and from the third on on its way to a membrane, however far.
+//! rounds at most; from the third on its vertices may move on their way to a membrane, by [`DEEP`] of the local radius at
+//! most.
 //!
 //! Where edges have more than two triangles, little can be done: `lumen_mesh::mending::split` comes first. Rims that touch by
 //! rounding are for `lumen_mesh::mending::weld`.
 //!
 //! Vertices farther than two rings from what crosses in a round keep their bits. A place whose hole opens into the end of a
 //! vessel, or cannot be closed without crossing, stays as it was and is told as [`Remedy::Failed`]. So does one by which a
-//! whole piece of the surface would be gone.
+//! whole piece of the surface would be gone. Where more than half of all triangles cross, there is no wall to mend by: all
+//! stays.
 
 mod apart;
 mod clusters;
@@ -28,6 +30,8 @@ use clusters::clusters;
 
 /// The part of the local radius by which a wall may leave its place on the gentle way.
 pub const SHALLOW: f64 = 0.01;
+/// The part of the local radius by which a vertex may move on its way to a membrane.
+pub const DEEP: f64 = 0.5;
 /// Rounds at most.
 pub const ROUNDS: usize = 4;
 
@@ -122,7 +126,7 @@ pub fn uncross(mesh: &TriMesh) -> Result<Uncrossed, UncrossError> {
         crossing_after: crossing.len(),
     };
     for round in 0..ROUNDS {
-        if crossing.is_empty() {
+        if crossing.is_empty() || 2 * crossing.len() > done.mesh.triangles.len() {
             break;
         }
         let next = mended(&done, &crossing, round);

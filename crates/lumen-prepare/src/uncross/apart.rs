@@ -7,8 +7,8 @@
 //! left its place by more than [`super::SHALLOW`] of the local radius. Vertices on open edges, and on edges of more than two
 //! triangles, stay.
 //!
-//! A place that could not be cut either goes, without that bound, as much of the way to a membrane over the rings around it
-//! as it takes (`membrane`).
+//! A place that could not be cut either goes as much of the way to a membrane over the rings around it as it takes
+//! (`membrane`), but no farther than [`super::DEEP`] of the local radius.
 
 use glam::{DVec3, Vec3};
 
@@ -17,7 +17,7 @@ use lumen_mesh::{SurfaceIndex, TriMesh, outward_normal};
 
 use super::clusters::{Cluster, NONE, bounds};
 use super::membrane::membrane;
-use super::{SHALLOW, Surface};
+use super::{DEEP, SHALLOW, Surface};
 
 /// Steps of a push, of a relaxation, and to a membrane.
 const PUSHES: u32 = 12;
@@ -75,7 +75,7 @@ impl<'a> Pushing<'a> {
     }
 
     /// Pushes a place apart; how far its vertices moved in mm, or `None` where that does not do.
-    /// Where it `is_free`, a place that cannot be within the bounds goes as far as it takes.
+    /// Where it `is_free`, a place that cannot be within that bound goes on its way to a membrane.
     pub(super) fn push(&mut self, number: u32, cluster: &Cluster, is_free: bool) -> Option<f64> {
         let region = self.region(number, cluster);
         let ways = [self.pushed(&region), self.relaxed(&region)];
@@ -197,11 +197,13 @@ impl<'a> Pushing<'a> {
         let membrane = membrane(&self.surface.topology, &self.positions, &inner);
         // Those of the second ring stay; they stand last.
         let ends: Vec<DVec3> = membrane.into_iter().chain(first.iter().skip(inner.len()).copied()).collect();
-        (1..=SPANS).find_map(|step| {
+        let limit = region.limit / SHALLOW * DEEP;
+        let way = (1..=SPANS).find_map(|step| {
             let part = f64::from(step) / f64::from(SPANS);
             let places: Vec<Vec3> = first.iter().zip(&ends).map(|(from, to)| from.lerp(*to, part).as_vec3()).collect();
             (!self.crosses(region, &places)).then(|| self.way(region, places))
-        })
+        });
+        way.filter(|way| way.moved <= limit)
     }
 
     fn way(&self, region: &Region, places: Vec<Vec3>) -> Way {
