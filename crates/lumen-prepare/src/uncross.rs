@@ -30,7 +30,8 @@ use clusters::clusters;
 
 /// The part of the local radius by which a wall may leave its place on the gentle way.
 pub const SHALLOW: f64 = 0.01;
-/// The part of the local radius by which a vertex may move on its way to a membrane.
+/// The part of the local radius by which a vertex may move on its way to a membrane; where triangles are large, two of their
+/// sides.
 pub const DEEP: f64 = 0.5;
 /// Rounds at most.
 pub const ROUNDS: usize = 4;

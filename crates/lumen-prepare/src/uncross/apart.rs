@@ -8,7 +8,8 @@
 //! triangles, stay.
 //!
 //! A place that could not be cut either goes as much of the way to a membrane over the rings around it as it takes
-//! (`membrane`), but no farther than [`super::DEEP`] of the local radius.
+//! (`membrane`), but no farther than [`super::DEEP`] of the local radius or two of
+//! its triangles' sides.
 
 use glam::{DVec3, Vec3};
 
@@ -55,8 +56,9 @@ struct Region {
     /// The vertices of these triangles, ascending, and the triangles by their places in that list.
     vertices: Vec<u32>,
     local: Vec<[u32; 3]>,
-    /// How far the wall may move, in mm.
-    limit: f64,
+    /// The local radius, and the mean length of the triangles' sides, in mm.
+    radius: f64,
+    edge: f64,
 }
 
 /// Where the vertices of a region go, in its order.
@@ -111,9 +113,13 @@ impl<'a> Pushing<'a> {
         vertices.dedup();
         let place = |v: u32| vertices.partition_point(|&other| other < v) as u32;
         let local = triangles.iter().map(|t| corners(t).map(place)).collect();
-        let limit =
-            SHALLOW * self.radius(rings.iter().rev().find(|ring| !ring.is_empty()).map_or(&[][..], |ring| ring));
-        Region { number, mobile, triangles, vertices, local, limit }
+        let radius = self.radius(rings.iter().rev().find(|ring| !ring.is_empty()).map_or(&[][..], |ring| ring));
+        let around = triangles.iter().map(|&t| {
+            let [a, b, c] = mesh.corners(t as usize);
+            f64::from(a.distance(b)) + f64::from(b.distance(c)) + f64::from(c.distance(a))
+        });
+        let edge = around.sum::<f64>() / (3 * triangles.len()).max(1) as f64;
+        Region { number, mobile, triangles, vertices, local, radius, edge }
     }
 
     /// The radius of the lumen in mm: the middle one of the inner balls at some of `vertices`; without one, half of how far
@@ -136,7 +142,7 @@ impl<'a> Pushing<'a> {
     /// The least push that parts the walls.
     fn pushed(&self, region: &Region) -> Option<Way> {
         (1..=PUSHES).flat_map(|step| [(step, -1.0), (step, 1.0)]).find_map(|(step, sign)| {
-            let depth = region.limit * f64::from(step) / f64::from(PUSHES);
+            let depth = SHALLOW * region.radius * f64::from(step) / f64::from(PUSHES);
             let place = |mobile: &Mobile| {
                 let at = self.positions[mobile.vertex as usize].as_dvec3();
                 (at + mobile.normal * (sign * depth * SHARES[mobile.ring])).as_vec3()
@@ -148,7 +154,7 @@ impl<'a> Pushing<'a> {
 
     /// The first relaxation that unfolds the place.
     fn relaxed(&self, region: &Region) -> Option<Way> {
-        let Surface { mesh, topology, index, .. } = self.surface;
+        let Surface { topology, index, .. } = self.surface;
         let mut slot = region.mobile.iter().map(|mobile| mobile.vertex).zip(0usize..).collect::<Vec<_>>();
         slot.sort_unstable();
         let mut at: Vec<DVec3> =
@@ -158,9 +164,7 @@ impl<'a> Pushing<'a> {
             Ok(found) => at[slot[found].1],
             Err(_) => self.positions[v as usize].as_dvec3(),
         };
-        let corners: Vec<[Vec3; 3]> = region.triangles.iter().map(|&t| mesh.corners(t as usize)).collect();
-        let edges = corners.iter().map(|[a, b, c]| f64::from(a.distance(*b) + b.distance(*c) + c.distance(*a)));
-        let mean_edge = edges.sum::<f64>() / (3 * corners.len()).max(1) as f64;
+        let limit = SHALLOW * region.radius;
         for _ in 0..RELAXATIONS {
             let half_way = |(mobile, p): (&Mobile, &DVec3)| {
                 let around = topology.neighbours(mobile.vertex);
@@ -172,8 +176,8 @@ impl<'a> Pushing<'a> {
             };
             at = region.mobile.iter().zip(&at).map(half_way).collect();
             let places: Vec<Vec3> = at.iter().map(|p| p.as_vec3()).collect();
-            let is_near = |p: &Vec3| index.nearest(*p).is_some_and(|near| f64::from(near.distance) <= region.limit);
-            let is_beyond = || at.iter().zip(&first).any(|(p, q)| p.distance(*q) > mean_edge);
+            let is_near = |p: &Vec3| index.nearest(*p).is_some_and(|near| f64::from(near.distance) <= limit);
+            let is_beyond = || at.iter().zip(&first).any(|(p, q)| p.distance(*q) > region.edge);
             if is_beyond() || !places.iter().all(is_near) {
                 return None;
             }
@@ -181,7 +185,7 @@ impl<'a> Pushing<'a> {
                 let sheet = self.sheet(region, &places);
                 let wall = SurfaceIndex::new(&sheet.positions, &sheet.triangles);
                 let is_near =
-                    |p: &DVec3| wall.nearest(p.as_vec3()).is_some_and(|near| f64::from(near.distance) <= region.limit);
+                    |p: &DVec3| wall.nearest(p.as_vec3()).is_some_and(|near| f64::from(near.distance) <= limit);
                 return first.iter().all(is_near).then(|| self.way(region, places));
             }
         }
@@ -197,7 +201,7 @@ impl<'a> Pushing<'a> {
         let membrane = membrane(&self.surface.topology, &self.positions, &inner);
         // Those of the second ring stay; they stand last.
         let ends: Vec<DVec3> = membrane.into_iter().chain(first.iter().skip(inner.len()).copied()).collect();
-        let limit = region.limit / SHALLOW * DEEP;
+        let limit = (DEEP * region.radius).max(2.0 * region.edge);
         let way = (1..=SPANS).find_map(|step| {
             let part = f64::from(step) / f64::from(SPANS);
             let places: Vec<Vec3> = first.iter().zip(&ends).map(|(from, to)| from.lerp(*to, part).as_vec3()).collect();
