@@ -295,10 +295,12 @@ fn run(net: &mut Net, original: &Original, rounds: usize) {
         steps::collapse_short(net);
         steps::flip_to_valence(net);
         steps::relax(net, original);
+        eprintln!("DBG {:?} {:?}", net.triangle_count(), Quality::of(&numbered(net).mesh));
     }
     for _ in 0..LAST_ROUNDS {
         steps::flip_to_angles(net);
         steps::relax(net, original);
+        eprintln!("DBG2 {:?} {:?}", net.triangle_count(), Quality::of(&numbered(net).mesh));
     }
     clean::widen_angles(net, original);
 }

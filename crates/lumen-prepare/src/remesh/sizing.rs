@@ -137,7 +137,7 @@ mod tests {
         let sphere = icosphere(4, 4.0, glam::Vec3::ONE);
         let net = Net::new(&sphere.positions, &sphere.triangles, vec![0; sphere.triangles.len()]).unwrap();
         for curvature in curvatures(&net) {
-            assert!((curvature - 0.25).abs() < 0.01, "{curvature}");
+            assert!((curvature - 0.25).abs() < 0.02, "{curvature}");
         }
     }
 }

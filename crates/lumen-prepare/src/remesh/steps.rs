@@ -23,7 +23,7 @@ const COLLAPSE_PASSES: usize = 20;
 /// A pass that collapses fewer edges than this part of the triangles is the last one.
 const FEW: usize = 200;
 /// The part of its way to the middle of its neighbours that a vertex goes.
-const DAMPING: f32 = 0.9;
+const DAMPING: f32 = 0.5;
 /// Vertices that one thread relaxes at a time.
 const CHUNK: usize = 2048;
 /// A flip makes no triangle of a lesser quality than this, unless it was there.
@@ -300,7 +300,7 @@ fn relaxed(net: &Net, v: u32) -> Option<Vec3> {
             }
             let (step, normal) = (sum / weights, normal.normalize_or_zero());
             let along = step - normal * step.dot(normal);
-            along.is_finite().then(|| p + along * (1.5 * DAMPING))
+            along.is_finite().then(|| p + along * DAMPING)
         }
         _ => {
             let [a, b] = net.along_curve(v)?;
