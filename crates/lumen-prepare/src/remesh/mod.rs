@@ -28,6 +28,8 @@ use super::Patched;
 
 /// Rounds of the steps.
 const ROUNDS: usize = 10;
+/// Relaxations in a round.
+const RELAXATIONS: usize = 3;
 /// Rounds of relaxation and flips for the angles after those.
 const LAST_ROUNDS: usize = 4;
 /// Rounds of the steps after the wanted lengths were reduced at crossings.
@@ -290,16 +292,20 @@ fn check_count(net: &Net, triangles: &[[u32; 3]], lengths: &[f64]) -> Result<(),
 
 /// The steps, and the clean-up after them.
 fn run(net: &mut Net, original: &Original, rounds: usize) {
-    for _ in 0..rounds {
+    for round in 0..rounds {
         steps::split_long(net, original, 2 * MOST);
-        steps::collapse_short(net);
+        steps::collapse_short(net, if 2 * round < rounds { 2.56 } else { 16.0 / 9.0 });
         steps::flip_to_valence(net);
-        steps::relax(net, original);
+        for _ in 0..RELAXATIONS {
+            steps::relax(net, original);
+        }
         eprintln!("DBG {:?} {:?}", net.triangle_count(), Quality::of(&numbered(net).mesh));
     }
     for _ in 0..LAST_ROUNDS {
         steps::flip_to_angles(net);
-        steps::relax(net, original);
+        for _ in 0..RELAXATIONS {
+            steps::relax(net, original);
+        }
         eprintln!("DBG2 {:?} {:?}", net.triangle_count(), Quality::of(&numbered(net).mesh));
     }
     clean::widen_angles(net, original);

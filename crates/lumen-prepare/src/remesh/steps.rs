@@ -147,7 +147,7 @@ fn is_longest(net: &Net, h: u32, stretch: f32) -> bool {
 }
 
 /// Collapses short edges.
-pub(super) fn collapse_short(net: &mut Net) {
+pub(super) fn collapse_short(net: &mut Net, longest: f32) {
     for _ in 0..COLLAPSE_PASSES {
         let mut count = 0;
         for h in 0..net.half_edges() {
@@ -160,7 +160,7 @@ pub(super) fn collapse_short(net: &mut Net) {
                 ways.swap(0, 1);
             }
             for way in ways {
-                if way != NONE && net.can_collapse(way) && keeps_shape(net, way, LONG) {
+                if way != NONE && net.can_collapse(way) && keeps_shape(net, way, longest) {
                     net.collapse(way);
                     count += 1;
                     break;
