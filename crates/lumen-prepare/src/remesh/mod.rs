@@ -50,8 +50,8 @@ pub struct Sizing {
     pub least_mm: f64,
     /// Largest edge length in mm, at least the least one.
     pub largest_mm: f64,
-    /// By what the length of an edge may grow from triangle to triangle, above 1: along the surface it grows by `growth - 1` mm a
-    /// mm at most.
+    /// By what the length of an edge may grow from triangle to triangle, above 1: along the surface it grows by half of
+    /// `growth - 1` mm a mm at most.
     pub growth: f64,
     /// Where set, edges are also short enough for the new surface to lie within this of the one that enters, by its
     /// curvature; in mm. [`Remeshed::deviation`] says how far it does.
@@ -299,14 +299,14 @@ fn run(net: &mut Net, original: &Original, rounds: usize) {
         for _ in 0..RELAXATIONS {
             steps::relax(net, original);
         }
-        eprintln!("DBG {:?} {:?}", net.triangle_count(), Quality::of(&numbered(net).mesh));
+
     }
     for _ in 0..LAST_ROUNDS {
         steps::flip_to_angles(net);
         for _ in 0..RELAXATIONS {
             steps::relax(net, original);
         }
-        eprintln!("DBG2 {:?} {:?}", net.triangle_count(), Quality::of(&numbered(net).mesh));
+
     }
     clean::widen_angles(net, original);
 }
