@@ -1,15 +1,17 @@
 //! Feature curves of the surface that enters: rims, borders between patches, and creases, as chains of edges between
 //! corners.
 //!
-//! A crease is an edge at which the faces turn by more than [`CREASE_DEG`]. Steps of a voxel grid and slivers make creases
-//! that are none: a connected piece of creases shorter than [`SHORTEST`] wanted edges is no feature, and neither is
-//! an edge of a triangle so thin that it has no normal to speak of. Rims and borders always are.
+//! A crease is an edge at which the faces turn by more than [`CREASE_DEG`], and so does the surface to both sides of it, seen over
+//! a wanted edge: the steps of a voxel grid do not. An edge of a triangle so thin that it has no normal to speak of is no
+//! crease, nor is a connected piece of creases shorter than [`SHORTEST`] wanted edges. Rims and borders always are
+//! features.
 
 use glam::{DVec3, Vec3};
 use lumen_mesh::disjoint_sets::{root, union};
 use lumen_mesh::{Nearest, SurfaceIndex};
 
 use super::net::{CORNER, FREE, NONE, Net};
+use super::triangle::doubled;
 
 /// Faces that turn by more than this at an edge make it a crease; degrees.
 const CREASE_DEG: f64 = 50.0;
@@ -19,6 +21,9 @@ const CORNER_DEG: f64 = 50.0;
 const SHORTEST: f64 = 3.0;
 /// The turn at a vertex counts over this part of a wanted edge to both sides too.
 const REACH: f64 = 0.5;
+/// Where normals are looked at on a side of a crease: away from it and along it, in wanted edges.
+const SAMPLES: [(f64, f64); 9] =
+    [(0.2, -0.3), (0.2, 0.0), (0.2, 0.3), (0.5, -0.4), (0.5, 0.1), (0.5, 0.4), (0.8, -0.2), (0.8, 0.0), (0.8, 0.3)];
 /// A triangle whose doubled area is below this part of its longest edge squared has no normal.
 const THIN: f64 = 0.02;
 
@@ -55,8 +60,8 @@ fn normal(net: &Net, t: u32) -> Option<DVec3> {
 }
 
 /// Finds the feature curves of `net`, whose sizes are known, and notes them in it.
-pub(super) fn find(net: &mut Net) -> Curves {
-    mark(net);
+pub(super) fn find(net: &mut Net, index: &SurfaceIndex) -> Curves {
+    mark(net, index);
     let counts: Vec<u32> = counts(net);
     for (v, &count) in counts.iter().enumerate() {
         if count != 0 && (count != 2 || has_corner(net, &counts, v as u32)) {
@@ -73,7 +78,7 @@ pub(super) fn find(net: &mut Net) -> Curves {
 const UNNAMED: u32 = 0;
 
 /// Marks feature edges by [`UNNAMED`].
-fn mark(net: &mut Net) {
+fn mark(net: &mut Net, index: &SurfaceIndex) {
     let normals: Vec<Option<DVec3>> = (0..net.patch.len() as u32).map(|t| normal(net, t)).collect();
     let limit = libm::cos(CREASE_DEG.to_radians());
     let mut creases: Vec<u32> = Vec::new();
@@ -88,6 +93,7 @@ fn mark(net: &mut Net) {
                 net.curve[g as usize] = UNNAMED;
             } else if let (Some(one), Some(other)) = (normals[t], normals[s])
                 && one.dot(other) < limit
+                && bends_widely(net, index, h, [one, other], limit)
             {
                 creases.push(h);
             }
@@ -108,6 +114,25 @@ fn mark(net: &mut Net) {
             net.curve[g as usize] = UNNAMED;
         }
     }
+}
+
+/// Whether the surface at `h`, whose faces have these normals, turns as seen over a wanted edge: the mean normals of places to
+/// both sides, up to that far away.
+fn bends_widely(net: &Net, index: &SurfaceIndex, h: u32, normals: [DVec3; 2], limit: f64) -> bool {
+    let [a, b] = [net.origin(h), net.end(h)].map(|v| net.at[v as usize].as_dvec3());
+    let (middle, along) = (a.midpoint(b), (b - a).normalize_or_zero());
+    let size = f64::from(f32::midpoint(net.size[net.origin(h) as usize], net.size[net.end(h) as usize]));
+    let [one, other] = [normals[0].cross(along), along.cross(normals[1])].map(|away| {
+        let mut sum = DVec3::ZERO;
+        for (out, aside) in SAMPLES {
+            let p = middle + (away.normalize_or_zero() * out + along * aside) * size;
+            if let Some(found) = index.nearest(p.as_vec3()) {
+                sum += doubled(net.corners(found.triangle)).as_dvec3().normalize_or_zero();
+            }
+        }
+        sum.normalize_or_zero()
+    });
+    one.dot(other) < limit
 }
 
 /// Feature edges at each vertex.

@@ -189,15 +189,15 @@ pub fn remesh(surface: &Patched, radii: &[f32], sizing: &Sizing) -> Result<Remes
     let of_first = |values: &[f32]| net.first.iter().map(|&v| values[v as usize]).collect::<Vec<f32>>();
     let mut lengths = sizing::by_radius(&of_first(radii), sizing);
     net.size = lengths.iter().map(|&length| length.min(sizing.largest_mm) as f32).collect();
-    let curves = features::find(&mut net);
+    let triangles: Vec<[u32; 3]> = net.origin.as_chunks::<3>().0.to_vec();
+    let index = SurfaceIndex::new(&net.at, &triangles);
+    let curves = features::find(&mut net, &index);
     if let Some(deviation) = sizing.max_deviation_mm {
         sizing::bound_deviation(&net, deviation, sizing, &mut lengths);
     }
     sizing::grade(&net, sizing, &mut lengths);
-    let triangles: Vec<[u32; 3]> = net.origin.as_chunks::<3>().0.to_vec();
     check_count(&net, &triangles, &lengths)?;
     net.size = lengths.iter().map(|&length| length as f32).collect();
-    let index = SurfaceIndex::new(&net.at, &triangles);
     let first = net.clone();
     let mut original = Original { triangles, patch, index, curves, lengths: net.size.clone() };
 
@@ -299,14 +299,12 @@ fn run(net: &mut Net, original: &Original, rounds: usize) {
         for _ in 0..RELAXATIONS {
             steps::relax(net, original);
         }
-
     }
     for _ in 0..LAST_ROUNDS {
         steps::flip_to_angles(net);
         for _ in 0..RELAXATIONS {
             steps::relax(net, original);
         }
-
     }
     clean::widen_angles(net, original);
 }
@@ -415,8 +413,10 @@ fn finished(
             return kept[nearest as usize];
         }
         // Beside a border the middle may be nearer to the other patch; a corner is not.
-        let feet = mesh.triangles[t].map(|v| vertices[v as usize]).map(|v| (net.kind[v as usize], net.foot[v as usize]));
-        let other = feet.into_iter().filter(|&(kind, _)| kind == FREE).find_map(|(_, foot)| foot.map(|foot| foot.triangle));
+        let feet =
+            mesh.triangles[t].map(|v| vertices[v as usize]).map(|v| (net.kind[v as usize], net.foot[v as usize]));
+        let other =
+            feet.into_iter().filter(|&(kind, _)| kind == FREE).find_map(|(_, foot)| foot.map(|foot| foot.triangle));
         kept[other.filter(|&t2| original.patch[t2 as usize] == of_triangle[t]).unwrap_or(nearest) as usize]
     });
     let from = from.collect();
@@ -445,7 +445,9 @@ fn push_sources(blend: &mut Blend, first: &Net, net: &Net, original: &Original, 
                 let [a, b] = original.curves.segments[found.triangle as usize];
                 Some(([a, b, b], found.barycentric))
             }
-            None => original.index.nearest(at).map(|found| (original.triangles[found.triangle as usize], found.barycentric)),
+            None => {
+                original.index.nearest(at).map(|found| (original.triangles[found.triangle as usize], found.barycentric))
+            }
         };
         for (corner, weight) in row.into_iter().flat_map(|(corners, weights)| corners.into_iter().zip(weights)) {
             blend.push(first.first[corner as usize], weight);

@@ -21,7 +21,8 @@ const AVERAGING: usize = 2;
 /// Lengths by the radius alone; infinite where it is not known.
 pub(super) fn by_radius(radii: &[f32], sizing: &Sizing) -> Vec<f64> {
     let length = |&r: &f32| std::f64::consts::TAU * f64::from(r) / sizing.around;
-    let clamped = |length: f64| if length.is_finite() { length.clamp(sizing.least_mm, sizing.largest_mm) } else { length };
+    let clamped =
+        |length: f64| if length.is_finite() { length.clamp(sizing.least_mm, sizing.largest_mm) } else { length };
     radii.iter().map(length).map(clamped).collect()
 }
 
@@ -51,7 +52,11 @@ fn curvatures(net: &Net) -> Vec<f64> {
         let on_edge = |(n, _): (u32, u32)| {
             let along = at(n) - at(v);
             let turn = (normals[n as usize] - normals[v as usize]).dot(along);
-            if net.kind[n as usize] == FREE { (turn / along.length_squared().max(f64::MIN_POSITIVE)).abs() } else { 0.0 }
+            if net.kind[n as usize] == FREE {
+                (turn / along.length_squared().max(f64::MIN_POSITIVE)).abs()
+            } else {
+                0.0
+            }
         };
         net.neighbours(v).map(on_edge).fold(0.0, f64::max)
     };
@@ -63,7 +68,8 @@ fn curvatures(net: &Net) -> Vec<f64> {
                 return own;
             }
             let alike = net.neighbours(v).filter(|&(n, _)| net.kind[n as usize] == FREE);
-            let (sum, count) = alike.fold((own, 1.0), |(sum, count), (n, _)| (sum + curvatures[n as usize], count + 1.0));
+            let (sum, count) =
+                alike.fold((own, 1.0), |(sum, count), (n, _)| (sum + curvatures[n as usize], count + 1.0));
             sum / count
         };
         curvatures = (0..net.at.len() as u32).map(mean).collect();

@@ -24,6 +24,8 @@ const COLLAPSE_PASSES: usize = 20;
 const FEW: usize = 200;
 /// The part of its way to the middle of its neighbours that a vertex goes.
 const DAMPING: f32 = 0.5;
+/// A vertex that would go by less than this part of a wanted length stays.
+const AT_REST: f32 = 0.02;
 /// Vertices that one thread relaxes at a time.
 const CHUNK: usize = 2048;
 /// A flip makes no triangle of a lesser quality than this, unless it was there.
@@ -101,10 +103,9 @@ pub(super) fn facing(net: &Net, v: u32) -> Vec3 {
 
 /// Moves a vertex to a place, unless that turns a face over.
 pub(super) fn settle(net: &mut Net, v: u32, place: &Place) -> bool {
-    let normal = facing(net, v);
     let may = net.around(v).all(|h| {
         let [_, b, c] = [h, next(h), prev(h)].map(|e| net.at[net.origin(e) as usize]);
-        may_become([net.at[v as usize], b, c], [place.at, b, c], normal)
+        may_become([net.at[v as usize], b, c], [place.at, b, c], || facing(net, v))
     });
     if may {
         net.at[v as usize] = place.at;
@@ -177,12 +178,11 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32) {
 /// lengths.
 pub(super) fn keeps_shape(net: &Net, h: u32, longest: f32) -> bool {
     let (v, w) = (net.origin(h), net.end(h));
-    let normal = facing(net, v);
     let target = net.at[w as usize];
     let is_kept = net.around(v).all(|e| {
         let [b, c] = [net.end(e), net.apex(e)];
         let [p, q] = [b, c].map(|v| net.at[v as usize]);
-        b == w || c == w || may_become([net.at[v as usize], p, q], [target, p, q], normal)
+        b == w || c == w || may_become([net.at[v as usize], p, q], [target, p, q], || facing(net, v))
     });
     is_kept && net.neighbours(v).all(|(n, _)| n == w || net.stretch_between(n, w) <= longest)
 }
@@ -270,6 +270,9 @@ pub(super) fn relax(net: &mut Net, original: &Original) {
                 return None;
             }
             let p = relaxed(net, v as u32)?;
+            if p.distance(net.at[v]) < AT_REST * net.size[v] {
+                return None;
+            }
             original.project(net, v as u32, p)
         };
         vertices.map(place).collect::<Vec<Option<Place>>>()

@@ -177,7 +177,15 @@ fn a_fork_of_three_calibres_is_remeshed() {
     let before = volume(&mesh, &topology);
     let start = std::time::Instant::now();
     let found = remesh(&Patched::wall(mesh), &radii, &Sizing::default()).unwrap();
-    println!("{} {:?} {:?} {} curves {} corners {:?}", found.surface.mesh.triangles.len(), found.quality, found.deviation, found.curves, found.corners, start.elapsed());
+    println!(
+        "{} {:?} {:?} {} curves {} corners {:?}",
+        found.surface.mesh.triangles.len(),
+        found.quality,
+        found.deviation,
+        found.curves,
+        found.corners,
+        start.elapsed()
+    );
     assert_good(&found);
     let new = &found.surface.mesh;
     assert_eq!(euler(new), 2);

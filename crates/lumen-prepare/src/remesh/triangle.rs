@@ -37,13 +37,13 @@ pub(super) fn sharpness([a, b, c]: [Vec3; 3]) -> f32 {
     if product > 0.0 { dot / product.sqrt() } else { 1.0 }
 }
 
-/// Whether a triangle may become another: its face turns by at most 60 degrees, or by less than 90 from `facing` where it has no
+/// Whether a triangle may become another: its face turns by at most 60 degrees, or by less than 90 from what `facing` says where it has no
 /// normal, and it does not become a sliver unless it is one.
 #[inline]
-pub(super) fn may_become(old: [Vec3; 3], new: [Vec3; 3], facing: Vec3) -> bool {
+pub(super) fn may_become(old: [Vec3; 3], new: [Vec3; 3], facing: impl FnOnce() -> Vec3) -> bool {
     let (before, after) = (quality(old), quality(new));
     let normal = doubled(new);
-    let (reference, least) = if before > THIN { (doubled(old), MOST_TURN) } else { (facing, 0.0) };
+    let (reference, least) = if before > THIN { (doubled(old), MOST_TURN) } else { (facing(), 0.0) };
     let is_kept = normal.dot(reference) > least * normal.length() * reference.length();
     is_kept && after > (before * 0.9).min(0.1)
 }
