@@ -21,7 +21,9 @@ const CORNER_DEG: f64 = 50.0;
 const SHORTEST: f64 = 3.0;
 /// The turn at a vertex counts over this part of a wanted edge to both sides too.
 const REACH: f64 = 0.5;
-/// Where normals are looked at on a side of a crease: away from it and along it, in wanted edges.
+/// How far to both sides of a crease normals are looked at, in wanted edges.
+const REACH_OF_CREASE: f64 = 1.5;
+/// Where normals are looked at on a side of a crease: away from it and along it, in parts of that.
 const SAMPLES: [(f64, f64); 9] =
     [(0.2, -0.3), (0.2, 0.0), (0.2, 0.3), (0.5, -0.4), (0.5, 0.1), (0.5, 0.4), (0.8, -0.2), (0.8, 0.0), (0.8, 0.3)];
 /// A triangle whose doubled area is below this part of its longest edge squared has no normal.
@@ -125,7 +127,7 @@ fn bends_widely(net: &Net, index: &SurfaceIndex, h: u32, normals: [DVec3; 2], li
     let [one, other] = [normals[0].cross(along), along.cross(normals[1])].map(|away| {
         let mut sum = DVec3::ZERO;
         for (out, aside) in SAMPLES {
-            let p = middle + (away.normalize_or_zero() * out + along * aside) * size;
+            let p = middle + (away.normalize_or_zero() * out + along * aside) * (REACH_OF_CREASE * size);
             if let Some(found) = index.nearest(p.as_vec3()) {
                 sum += doubled(net.corners(found.triangle)).as_dvec3().normalize_or_zero();
             }

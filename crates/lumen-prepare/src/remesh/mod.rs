@@ -32,12 +32,12 @@ const ROUNDS: usize = 10;
 const RELAXATIONS: usize = 3;
 /// Rounds of relaxation and flips for the angles after those.
 const LAST_ROUNDS: usize = 4;
-/// Rounds of the steps after the wanted lengths were reduced at crossings.
+/// Rounds of the steps after wanted lengths were reduced.
 const REPAIR_ROUNDS: usize = 3;
-/// How often lengths are reduced at crossings.
-const REPAIRS: usize = 3;
-/// By what wanted lengths are multiplied at crossings.
-const REDUCTION: f64 = 0.6;
+/// How often lengths are reduced at crossings, or beyond the bound on the deviation.
+const REPAIRS: usize = 4;
+/// By what wanted lengths are multiplied there.
+const REDUCTION: f64 = 0.7;
 /// The most triangles that are made.
 const MOST: usize = 20_000_000;
 
@@ -204,25 +204,23 @@ pub fn remesh(surface: &Patched, radii: &[f32], sizing: &Sizing) -> Result<Remes
     run(&mut net, &original, ROUNDS);
     let mut new = numbered(&net);
     let mut crossing = self_intersections(&new.mesh);
-    if !crossing.is_empty() {
-        let old = TriMesh { positions: first.at.clone(), triangles: original.triangles.clone() };
-        let mut crossed_before = vec![false; original.triangles.len()];
-        self_intersections(&old).into_iter().for_each(|t| crossed_before[t as usize] = true);
-        for _ in 0..REPAIRS {
-            let is_reduced = reduce(&crossing, &new.mesh, &original, &crossed_before, sizing, &mut lengths);
-            if !is_reduced {
-                break;
-            }
-            sizing::grade(&first, sizing, &mut lengths);
-            original.lengths = lengths.iter().map(|&length| length as f32).collect();
-            resize(&mut net, &original);
-            run(&mut net, &original, REPAIR_ROUNDS);
-            new = numbered(&net);
-            crossing = self_intersections(&new.mesh);
-            if crossing.is_empty() {
-                break;
-            }
+    for _ in 0..REPAIRS {
+        let mut coarse = where_crossed(&crossing, &new.mesh, &original, &first);
+        if let Some(bound) = sizing.max_deviation_mm {
+            coarse.extend(where_far(bound, &new.mesh, &original, &first));
         }
+        if !reduce(&coarse, &original, sizing, &mut lengths) {
+            break;
+        }
+        sizing::grade(&first, sizing, &mut lengths);
+        if check_count(&first, &original.triangles, &lengths).is_err() {
+            break;
+        }
+        original.lengths = lengths.iter().map(|&length| length as f32).collect();
+        resize(&mut net, &original);
+        run(&mut net, &original, REPAIR_ROUNDS);
+        new = numbered(&net);
+        crossing = self_intersections(&new.mesh);
     }
     Ok(finished(surface, &first, &net, &original, &kept, new, crossing))
 }
@@ -309,25 +307,40 @@ fn run(net: &mut Net, original: &Original, rounds: usize) {
     clean::widen_angles(net, original);
 }
 
-/// Reduces the lengths around the new triangles that cross where the old ones did not; whether there are any that can be.
-fn reduce(
-    crossing: &[u32],
-    mesh: &TriMesh,
-    original: &Original,
-    crossed_before: &[bool],
-    sizing: &Sizing,
-    lengths: &mut [f64],
-) -> bool {
-    let mut vertices: Vec<u32> = Vec::new();
-    for &t in crossing {
-        let corners = mesh.corners(t as usize);
-        for p in corners.into_iter().chain([middle(corners)]) {
-            let Some(found) = original.index.nearest(p) else { continue };
-            if !crossed_before[found.triangle as usize] {
-                vertices.extend(original.triangles[found.triangle as usize]);
-            }
+/// The old triangles, none of which crossed others, at new ones that do.
+fn where_crossed(crossing: &[u32], mesh: &TriMesh, original: &Original, first: &Net) -> Vec<u32> {
+    if crossing.is_empty() {
+        return Vec::new();
+    }
+    let mut crossed_before = vec![false; original.triangles.len()];
+    let old = TriMesh { positions: first.at.clone(), triangles: original.triangles.clone() };
+    self_intersections(&old).into_iter().for_each(|t| crossed_before[t as usize] = true);
+    let points = crossing.iter().flat_map(|&t| samples(mesh.corners(t as usize)));
+    let old = points.filter_map(|p| original.index.nearest(p)).map(|found| found.triangle);
+    old.filter(|&t| !crossed_before[t as usize]).collect()
+}
+
+/// The old triangles where one of the surfaces is farther than `bound` from the other, in mm.
+fn where_far(bound: f64, mesh: &TriMesh, original: &Original, first: &Net) -> Vec<u32> {
+    let bound = bound as f32;
+    let mut far = Vec::new();
+    for t in 0..mesh.triangles.len() {
+        let beyond = samples(mesh.corners(t)).into_iter().filter(|&p| !original.index.is_within(p, bound));
+        far.extend(beyond.filter_map(|p| original.index.nearest(p)).map(|found| found.triangle));
+    }
+    let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+    for (t, corners) in original.triangles.iter().enumerate() {
+        let corners = corners.map(|v| first.at[v as usize]);
+        if samples(corners).into_iter().any(|p| !index.is_within(p, bound)) {
+            far.push(t as u32);
         }
     }
+    far
+}
+
+/// Reduces the wanted lengths at some old triangles; whether there are any that can be reduced.
+fn reduce(coarse: &[u32], original: &Original, sizing: &Sizing, lengths: &mut [f64]) -> bool {
+    let mut vertices: Vec<u32> = coarse.iter().flat_map(|&t| original.triangles[t as usize]).collect();
     vertices.sort_unstable();
     vertices.dedup();
     let mut is_reduced = false;
@@ -338,6 +351,11 @@ fn reduce(
         *length = reduced;
     }
     is_reduced
+}
+
+/// Its corners, the middles of its sides and its own.
+fn samples([a, b, c]: [Vec3; 3]) -> [Vec3; 7] {
+    [a, b, c, a.midpoint(b), b.midpoint(c), c.midpoint(a), middle([a, b, c])]
 }
 
 /// Looks the wanted lengths up again.
@@ -467,8 +485,7 @@ fn deviation(mesh: &TriMesh, original: &Original, first: &Net) -> Deviation {
 fn farthest(mesh: &TriMesh, from: &SurfaceIndex) -> f64 {
     let mut farthest = 0.0f32;
     for t in 0..mesh.triangles.len() {
-        let [a, b, c] = mesh.corners(t);
-        for p in [a, b, c, a.midpoint(b), b.midpoint(c), c.midpoint(a), middle([a, b, c])] {
+        for p in samples(mesh.corners(t)) {
             // What is no farther than what was found does not matter.
             if !from.is_within(p, farthest) {
                 farthest = from.nearest(p).map_or(farthest, |found| found.distance.max(farthest));
