@@ -19,7 +19,7 @@ mod steps;
 mod tests;
 mod triangle;
 
-use lumen_mesh::{Blend, SurfaceIndex, TriMesh, Vec3, self_intersections, triangle_area};
+use lumen_mesh::{Blend, SurfaceIndex, TriMesh, Vec3, parallel, self_intersections, triangle_area};
 use thiserror::Error;
 
 use self::net::{CORNER, FREE, NONE, Net, Unsound};
@@ -27,17 +27,22 @@ use self::steps::Original;
 use super::Patched;
 
 /// Rounds of the steps.
-const ROUNDS: usize = 10;
-/// Relaxations in a round.
-const RELAXATIONS: usize = 3;
+const ROUNDS: usize = 7;
+/// The first rounds, in which a collapse may make edges that are split again: so even a grid of long triangles gets another
+/// pattern.
+const COARSE_ROUNDS: usize = 2;
 /// Rounds of relaxation and flips for the angles after those.
-const LAST_ROUNDS: usize = 4;
+const LAST_ROUNDS: usize = 3;
 /// Rounds of the steps after wanted lengths were reduced.
 const REPAIR_ROUNDS: usize = 3;
 /// How often lengths are reduced at crossings, or beyond the bound on the deviation.
 const REPAIRS: usize = 4;
 /// By what wanted lengths are multiplied there.
 const REDUCTION: f64 = 0.7;
+/// Distances are first looked at in one of this many triangles.
+const SOME: usize = 64;
+/// Triangles that one thread looks at, at a time.
+const CHUNK: usize = 4096;
 /// The most triangles that are made.
 const MOST: usize = 20_000_000;
 
@@ -201,7 +206,7 @@ pub fn remesh(surface: &Patched, radii: &[f32], sizing: &Sizing) -> Result<Remes
     let first = net.clone();
     let mut original = Original { triangles, patch, index, curves, lengths: net.size.clone() };
 
-    run(&mut net, &original, ROUNDS);
+    run(&mut net, &original, ROUNDS, COARSE_ROUNDS);
     let mut new = numbered(&net);
     let mut crossing = self_intersections(&new.mesh);
     for _ in 0..REPAIRS {
@@ -218,7 +223,7 @@ pub fn remesh(surface: &Patched, radii: &[f32], sizing: &Sizing) -> Result<Remes
         }
         original.lengths = lengths.iter().map(|&length| length as f32).collect();
         resize(&mut net, &original);
-        run(&mut net, &original, REPAIR_ROUNDS);
+        run(&mut net, &original, REPAIR_ROUNDS, 0);
         new = numbered(&net);
         crossing = self_intersections(&new.mesh);
     }
@@ -289,20 +294,19 @@ fn check_count(net: &Net, triangles: &[[u32; 3]], lengths: &[f64]) -> Result<(),
 }
 
 /// The steps, and the clean-up after them.
-fn run(net: &mut Net, original: &Original, rounds: usize) {
+fn run(net: &mut Net, original: &Original, rounds: usize, coarse_rounds: usize) {
     for round in 0..rounds {
         steps::split_long(net, original, 2 * MOST);
-        steps::collapse_short(net, if 2 * round < rounds { 2.56 } else { 16.0 / 9.0 });
+        let longest = if round < coarse_rounds { steps::LONGER } else { steps::LONG };
+        steps::collapse_short(net, longest);
         steps::flip_to_valence(net);
-        for _ in 0..RELAXATIONS {
-            steps::relax(net, original);
-        }
+        steps::relax(net, original, false);
+        steps::relax(net, original, true);
     }
     for _ in 0..LAST_ROUNDS {
         steps::flip_to_angles(net);
-        for _ in 0..RELAXATIONS {
-            steps::relax(net, original);
-        }
+        steps::relax(net, original, false);
+        steps::relax(net, original, true);
     }
     clean::widen_angles(net, original);
 }
@@ -483,16 +487,20 @@ fn deviation(mesh: &TriMesh, original: &Original, first: &Net) -> Deviation {
 
 /// The largest distance of a vertex, the middle of an edge or of a triangle.
 fn farthest(mesh: &TriMesh, from: &SurfaceIndex) -> f64 {
-    let mut farthest = 0.0f32;
-    for t in 0..mesh.triangles.len() {
-        for p in samples(mesh.corners(t)) {
-            // What is no farther than what was found does not matter.
-            if !from.is_within(p, farthest) {
+    // What is no farther than what was found does not matter.
+    let of = |triangles: &mut dyn Iterator<Item = usize>, mut farthest: f32| {
+        let mut last = 0;
+        for p in triangles.flat_map(|t| samples(mesh.corners(t))) {
+            if !from.is_within_from(p, farthest, &mut last) {
                 farthest = from.nearest(p).map_or(farthest, |found| found.distance.max(farthest));
             }
         }
-    }
-    f64::from(farthest)
+        farthest
+    };
+    let count = mesh.triangles.len();
+    let at_some = of(&mut (0..count).step_by(SOME), 0.0);
+    let at_all = parallel::map_ranges(count, CHUNK, |mut triangles| of(&mut triangles, at_some));
+    f64::from(at_all.into_iter().fold(at_some, f32::max))
 }
 
 impl Quality {

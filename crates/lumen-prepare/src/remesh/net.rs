@@ -26,6 +26,8 @@ pub(super) struct Net {
     pub(super) kind: Vec<u32>,
     /// Where a vertex lies on the surface that entered, or on its feature segments if it is on a curve; `None` where it is a vertex of them.
     pub(super) foot: Vec<Option<Nearest>>,
+    /// Whether a vertex may have left the surface that entered.
+    pub(super) is_adrift: Vec<bool>,
     /// The vertex of the surface that entered which a vertex was; only the first ones were one.
     pub(super) first: Vec<u32>,
     /// A half-edge that leaves the vertex; [`NONE`] where the vertex is gone.
@@ -72,6 +74,7 @@ impl Net {
             at: positions.to_vec(),
             kind: vec![FREE; positions.len()],
             foot: vec![None; positions.len()],
+            is_adrift: vec![false; positions.len()],
             first: (0..positions.len() as u32).collect(),
             out: vec![NONE; positions.len()],
             twin: vec![NONE; origin.len()],
@@ -122,6 +125,7 @@ impl Net {
                 self.at.push(self.at[v as usize]);
                 self.kind.push(CORNER);
                 self.foot.push(None);
+                self.is_adrift.push(false);
                 self.first.push(v);
                 self.out.push(NONE);
                 v = copy;
@@ -293,6 +297,7 @@ impl Net {
         self.size.push(f32::midpoint(self.size[v as usize], self.size[w as usize]));
         self.kind.push(curve);
         self.foot.push(None);
+        self.is_adrift.push(true);
         self.first.push(NONE);
         self.out.push(NONE);
         let first = 3 * self.new_triangle(self.patch[(h / 3) as usize]);

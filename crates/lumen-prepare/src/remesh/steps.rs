@@ -13,7 +13,9 @@ use super::net::{CORNER, FREE, NONE, Net, next, prev};
 use super::triangle::{doubled, may_become, quality, sharpness};
 
 /// An edge above this many wanted lengths is split, squared.
-const LONG: f32 = 16.0 / 9.0;
+pub(super) const LONG: f32 = 16.0 / 9.0;
+/// What a collapse may make of an edge at first: 1.6 wanted lengths, squared.
+pub(super) const LONGER: f32 = 2.56;
 /// An edge below this many wanted lengths is collapsed, squared.
 const SHORT: f32 = 16.0 / 25.0;
 /// Passes over all edges in which they are split, at most: each halves the longest ones.
@@ -101,16 +103,22 @@ pub(super) fn facing(net: &Net, v: u32) -> Vec3 {
     net.around(v).fold(Vec3::ZERO, |sum, h| sum + doubled(net.corners(h / 3)))
 }
 
+/// Whether a vertex can go to `p` with no face turned over.
+fn may_move(net: &Net, v: u32, p: Vec3) -> bool {
+    net.around(v).all(|h| {
+        let [b, c] = [next(h), prev(h)].map(|e| net.at[net.origin(e) as usize]);
+        may_become([net.at[v as usize], b, c], [p, b, c], || facing(net, v))
+    })
+}
+
 /// Moves a vertex to a place, unless that turns a face over.
 pub(super) fn settle(net: &mut Net, v: u32, place: &Place) -> bool {
-    let may = net.around(v).all(|h| {
-        let [_, b, c] = [h, next(h), prev(h)].map(|e| net.at[net.origin(e) as usize]);
-        may_become([net.at[v as usize], b, c], [place.at, b, c], || facing(net, v))
-    });
+    let may = may_move(net, v, place.at);
     if may {
         net.at[v as usize] = place.at;
         net.size[v as usize] = place.size;
         net.foot[v as usize] = Some(place.foot);
+        net.is_adrift[v as usize] = false;
     }
     may
 }
@@ -262,24 +270,51 @@ fn may_flip(net: &Net, [v, w, a, b]: [u32; 4], least: f32) -> bool {
     is_flat && turn && worst > least.min(was) && worst > 1e-4 && !net.are_neighbours(a, b)
 }
 
-/// Moves vertices along the surface to the middle of their triangles, each weighted by its area in wanted lengths.
-pub(super) fn relax(net: &mut Net, original: &Original) {
-    let places = parallel::map_ranges(net.at.len(), CHUNK, |vertices| {
-        let place = |v: usize| {
+/// Where a vertex goes.
+enum Step {
+    Stay,
+    /// Beside the surface.
+    Drift(Vec3),
+    Settle(Place),
+}
+
+/// Moves vertices along the surface to the middle of their triangles, each weighted by its area in wanted lengths; free ones
+/// are put back on the surface if `is_last`.
+pub(super) fn relax(net: &mut Net, original: &Original, is_last: bool) {
+    let steps = parallel::map_ranges(net.at.len(), CHUNK, |vertices| {
+        let step = |v: usize| {
             if net.out[v] == NONE {
-                return None;
+                return Step::Stay;
             }
-            let p = relaxed(net, v as u32)?;
-            if p.distance(net.at[v]) < AT_REST * net.size[v] {
-                return None;
+            let Some(p) = relaxed(net, v as u32) else { return Step::Stay };
+            let is_at_rest = p.distance(net.at[v]) < AT_REST * net.size[v];
+            if net.kind[v] == FREE && !is_last {
+                return if is_at_rest { Step::Stay } else { Step::Drift(p) };
             }
-            original.project(net, v as u32, p)
+            if is_at_rest && !net.is_adrift[v] {
+                return Step::Stay;
+            }
+            original.project(net, v as u32, p).map_or(Step::Stay, Step::Settle)
         };
-        vertices.map(place).collect::<Vec<Option<Place>>>()
+        vertices.map(step).collect::<Vec<Step>>()
     });
-    for (v, place) in places.into_iter().flatten().enumerate() {
-        if let Some(place) = place {
-            settle(net, v as u32, &place);
+    for (v, step) in steps.into_iter().flatten().enumerate() {
+        match step {
+            Step::Stay => {}
+            Step::Drift(p) => {
+                if may_move(net, v as u32, p) {
+                    net.at[v] = p;
+                    net.is_adrift[v] = true;
+                }
+            }
+            Step::Settle(place) => {
+                if !settle(net, v as u32, &place) && net.is_adrift[v] {
+                    // It is back on the surface at least.
+                    if let Some(place) = original.project(net, v as u32, net.at[v]) {
+                        settle(net, v as u32, &place);
+                    }
+                }
+            }
         }
     }
 }
