@@ -3,7 +3,8 @@
 //!
 //! A crease is an edge at which the faces turn by more than [`CREASE_DEG`], and so does the surface to both sides of it, seen over
 //! a wanted edge: the steps of a voxel grid do not. An edge of a triangle so thin that it has no normal to speak of is no
-//! crease, nor is a connected piece of creases shorter than [`SHORTEST`] wanted edges. Rims and borders always are
+//! crease, nor is a connected piece of creases shorter than [`SHORTEST`] wanted edges, nor a chain that could not be
+//! resolved. Rims and borders always are
 //! features.
 
 use glam::{DVec3, Vec3};
@@ -18,7 +19,9 @@ const CREASE_DEG: f64 = 50.0;
 /// A curve that turns by more than this at a vertex has a corner there; degrees.
 const CORNER_DEG: f64 = 50.0;
 /// Least length of connected creases, in wanted edges.
-const SHORTEST: f64 = 3.0;
+const SHORTEST: f64 = 6.0;
+/// Least length of a chain of creases that ends in no other, in wanted edges.
+const SHORTEST_END: f64 = 3.0;
 /// The turn at a vertex counts over this part of a wanted edge to both sides too.
 const REACH: f64 = 0.5;
 /// How far to both sides of a crease normals are looked at, in wanted edges.
@@ -63,27 +66,34 @@ fn normal(net: &Net, t: u32) -> Option<DVec3> {
 
 /// Finds the feature curves of `net`, whose sizes are known, and notes them in it.
 pub(super) fn find(net: &mut Net, index: &SurfaceIndex) -> Curves {
-    mark(net, index);
-    let counts: Vec<u32> = counts(net);
-    for (v, &count) in counts.iter().enumerate() {
-        if count != 0 && (count != 2 || has_corner(net, &counts, v as u32)) {
-            net.kind[v] = CORNER;
+    let mut is_crease = mark(net, index);
+    let kinds = net.kind.clone();
+    loop {
+        drop_short_pieces(net, &mut is_crease);
+        let counts = counts(net);
+        for (v, &count) in counts.iter().enumerate() {
+            if count != 0 && (count != 2 || has_corner(net, &counts, v as u32)) {
+                net.kind[v] = CORNER;
+            }
         }
+        let mut curves = chains(net, &counts);
+        if !drop_weak(net, &curves, &counts, &mut is_crease) {
+            let triangles: Vec<[u32; 3]> = curves.segments.iter().map(|&[a, b]| [a, b, b]).collect();
+            curves.index = SurfaceIndex::new(&net.at, &triangles);
+            return curves;
+        }
+        net.kind.clone_from(&kinds);
     }
-    let mut curves = chains(net, &counts);
-    let triangles: Vec<[u32; 3]> = curves.segments.iter().map(|&[a, b]| [a, b, b]).collect();
-    curves.index = SurfaceIndex::new(&net.at, &triangles);
-    curves
 }
 
 /// Features not yet in a chain.
 const UNNAMED: u32 = 0;
 
-/// Marks feature edges by [`UNNAMED`].
-fn mark(net: &mut Net, index: &SurfaceIndex) {
+/// Marks feature edges by [`UNNAMED`], and returns for each half-edge whether it is one as a crease alone.
+fn mark(net: &mut Net, index: &SurfaceIndex) -> Vec<bool> {
     let normals: Vec<Option<DVec3>> = (0..net.patch.len() as u32).map(|t| normal(net, t)).collect();
     let limit = libm::cos(CREASE_DEG.to_radians());
-    let mut creases: Vec<u32> = Vec::new();
+    let mut is_crease = vec![false; net.origin.len()];
     for h in 0..net.half_edges() {
         let g = net.twin(h);
         if g == NONE {
@@ -97,11 +107,35 @@ fn mark(net: &mut Net, index: &SurfaceIndex) {
                 && one.dot(other) < limit
                 && bends_widely(net, index, h, [one, other], limit)
             {
-                creases.push(h);
+                net.curve[h as usize] = UNNAMED;
+                net.curve[g as usize] = UNNAMED;
+                is_crease[h as usize] = true;
+                is_crease[g as usize] = true;
             }
         }
     }
+    is_crease
+}
+
+/// Takes the mark from the edges for which `is_weak`.
+fn unmark(net: &mut Net, is_crease: &mut [bool], is_weak: impl Fn(&Net, u32) -> bool) -> bool {
+    let mut is_any = false;
+    for h in 0..net.half_edges() {
+        if is_crease[h as usize] && net.is_edge(h) && is_weak(net, h) {
+            for e in [h, net.twin(h)] {
+                is_crease[e as usize] = false;
+                net.curve[e as usize] = NONE;
+            }
+            is_any = true;
+        }
+    }
+    is_any
+}
+
+/// Drops connected creases that are shorter than [`SHORTEST`] together.
+fn drop_short_pieces(net: &mut Net, is_crease: &mut [bool]) {
     let mut pieces: Vec<u32> = (0..net.at.len() as u32).collect();
+    let creases: Vec<u32> = (0..net.half_edges()).filter(|&h| is_crease[h as usize] && net.is_edge(h)).collect();
     for &h in &creases {
         union(&mut pieces, net.origin(h), net.end(h));
     }
@@ -109,13 +143,25 @@ fn mark(net: &mut Net, index: &SurfaceIndex) {
     for &h in &creases {
         lengths[root(&mut pieces, net.origin(h)) as usize] += f64::from(net.stretch(h)).sqrt();
     }
-    for h in creases {
-        if lengths[root(&mut pieces, net.origin(h)) as usize] >= SHORTEST {
-            net.curve[h as usize] = UNNAMED;
-            let g = net.twin(h);
-            net.curve[g as usize] = UNNAMED;
-        }
+    for v in 0..net.at.len() as u32 {
+        pieces[v as usize] = root(&mut pieces, v);
     }
+    unmark(net, is_crease, |net, h| lengths[pieces[net.origin(h) as usize] as usize] < SHORTEST);
+}
+
+/// Drops chains of creases that are shorter than a wanted edge, and those shorter than [`SHORTEST_END`] that end in no other;
+/// whether there are any.
+fn drop_weak(net: &mut Net, curves: &Curves, counts: &[u32], is_crease: &mut [bool]) -> bool {
+    let mut lengths = vec![0.0f64; curves.count()];
+    let mut has_end = vec![false; curves.count()];
+    for (&[a, b], &curve) in curves.segments.iter().zip(&curves.of_segment) {
+        lengths[curve as usize] += f64::from(net.stretch_between(a, b)).sqrt();
+        has_end[curve as usize] |= counts[a as usize] == 1 || counts[b as usize] == 1;
+    }
+    unmark(net, is_crease, |net, h| {
+        let curve = net.curve[h as usize] as usize;
+        lengths[curve] < if has_end[curve] { SHORTEST_END } else { 1.0 }
+    })
 }
 
 /// Whether the surface at `h`, whose faces have these normals, turns as seen over a wanted edge: the mean normals of places to

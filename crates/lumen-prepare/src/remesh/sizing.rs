@@ -125,7 +125,7 @@ mod tests {
     fn a_length_is_the_circumference_over_the_edges_around_it_within_its_bounds() {
         let sizing = Sizing { around: 12.0, least_mm: 0.2, largest_mm: 2.0, ..Sizing::default() };
         let found = by_radius(&[1.0, 0.1, 100.0, f32::INFINITY], &sizing);
-        assert!((found[0] - 0.523_598_775_598).abs() < 1e-9);
+        assert!((found[0] - std::f64::consts::FRAC_PI_6).abs() < 1e-9);
         assert_eq!(found[1..], [0.2, 2.0, f64::INFINITY]);
     }
 

