@@ -13,7 +13,7 @@ use super::{Patch, PatchKind, Patched};
 use lumen_mesh::task::{Yielder, at_once};
 use lumen_mesh::{Topology, TriMesh, compacted, flat_caps, triangle_area};
 use lumen_vessel::width::widths;
-use lumen_vessel::{Tree, TreeError, tree::End};
+use lumen_vessel::{End, Tree, TreeError};
 
 /// An extension that would run into something is as long as this part of what is free.
 const OF_FREE: f64 = 0.9;
@@ -235,13 +235,16 @@ fn in_patches(mesh: TriMesh) -> Patched {
 /// The radius of the vessel at each vertex, in mm: of the wall alone, as balls in the corner of a cap are small.
 fn radii(surface: &Patched) -> Vec<f32> {
     let Patched { mesh, of_triangle, .. } = surface;
-    let walls: Vec<[u32; 3]> = mesh.triangles.iter().zip(of_triangle).filter(|(_, patch)| **patch == 0).map(|(&t, _)| t).collect();
+    let walls: Vec<[u32; 3]> =
+        mesh.triangles.iter().zip(of_triangle).filter(|(_, patch)| **patch == 0).map(|(&t, _)| t).collect();
     let wall = TriMesh { positions: mesh.positions.clone(), triangles: walls };
     let topology = Topology::new(wall.positions.len(), &wall.triangles);
     let (mut radii, _) = at_once(widths(&wall, &topology, None, &Yielder::never()));
     // What is of a cap alone is as its patch.
     for (triangle, &patch) in mesh.triangles.iter().zip(of_triangle) {
-        let Some(patch) = surface.patches.get(patch as usize).filter(|patch| patch.kind != PatchKind::Wall) else { continue };
+        let Some(patch) = surface.patches.get(patch as usize).filter(|patch| patch.kind != PatchKind::Wall) else {
+            continue;
+        };
         for v in triangle {
             let known = &mut radii[*v as usize];
             *known = known.min(patch.radius_mm() as f32);
