@@ -48,8 +48,7 @@ fn far_vertices(mesh: &TriMesh, is_wrong: impl Fn(Vec3) -> bool) -> Vec<bool> {
     let crossing = self_intersections(mesh);
     crossing.iter().flat_map(|&t| mesh.triangles[t as usize]).for_each(|v| is_near[v as usize] = true);
     is_near.iter_mut().zip(&mesh.positions).for_each(|(near, &p)| *near |= is_wrong(p));
-    // A triangle whose middle alone is on the wrong side, and then two rings.
-    for _ in 0..3 {
+    for _ in 0..2 {
         let before = is_near.clone();
         for t in mesh.triangles.iter().filter(|t| t.iter().any(|&v| before[v as usize])) {
             t.iter().for_each(|&v| is_near[v as usize] = true);
