@@ -94,12 +94,12 @@ impl Prepare {
     pub(super) fn run(&self) -> Result<()> {
         places::check([Path::new(&self.file)], [("the folder".to_owned(), &*self.output)])?;
         interrupt::listen()?;
-        let Imported { mesh, report, .. } = source::read_with(&self.file, self.unit, &Default::default())?;
+        let Imported { mesh, .. } = source::read_with(&self.file, self.unit, &Default::default())?;
         let before = mesh.triangles.len();
         let found = prepare(mesh, &self.plan()?).map_err(|error| anyhow!("the surface cannot be prepared: {error}"))?;
         interrupt::check()?;
-        let stem = Path::new(&report.name).file_stem().map_or("surface".into(), |stem| stem.to_string_lossy().into_owned());
-        let stem = stem.replace([':', '/', '\\'], "-");
+        let stem = Path::new(&self.file).file_stem().map_or("surface".into(), |stem| stem.to_string_lossy());
+        let stem = stem.replace(':', "-");
         for format in &self.format {
             for (name, bytes) in format.written(&found.surface, &stem)? {
                 self.write(&name, &bytes)?;

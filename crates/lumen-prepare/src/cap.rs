@@ -262,9 +262,9 @@ mod tests {
         let mesh = tube(SIDES, 40, 20.0, |_| 2.0);
         for kind in [CapKind::Fan, CapKind::Planar] {
             let surface = capped(&mesh, kind);
-            // Between the rings, turned by half a side, the wall bends in a little.
+            // Between rings that are turned by half a side the section lies between the polygon and the circle.
             let whole = closed(&surface.mesh);
-            assert!(whole < polygon() * 20.0 && whole > 0.98 * polygon() * 20.0, "{kind:?}: {whole}");
+            assert!(whole > polygon() * 20.0 && whole < std::f64::consts::PI * 80.0, "{kind:?}: {whole}");
             assert_eq!(surface.patches.len(), 3);
             for (number, patch) in surface.patches.iter().enumerate().skip(1) {
                 let of = |t: &usize| surface.of_triangle[*t] as usize == number;

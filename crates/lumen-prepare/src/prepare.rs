@@ -1,17 +1,21 @@
-//! All of it in one call: uncross, clip, extend, cap, remesh, check.
+//! All of it in one call: the largest piece, uncross, clip, extend, cap, remesh, check.
 
 use thiserror::Error;
 
 use super::cap::{CapError, CapKind, cap};
 use super::check::{Fate, check};
 use super::clip::{ClipError, Clipped, clip};
-use super::ends::{EndError, Length, OpenEnd, RimError, SurfaceError, check_surface, open_ends, place, propose};
+use super::ends::{
+    EndError, EndPlane, Length, OpenEnd, RimError, SurfaceError, check_surface, open_ends, place,
+    planes_of_uneven_openings, propose,
+};
 use super::extend::{ExtendError, Extended, extend};
 use super::remesh::{Deviation, Quality, RemeshError, Remeshed, Sizing, remesh};
 use super::uncross::{UncrossError, Uncrossed, uncross};
 use super::{Patch, PatchKind, Patched};
+use lumen_mesh::mending::split::split;
 use lumen_mesh::task::{Yielder, at_once};
-use lumen_mesh::{Topology, TriMesh, compacted, flat_caps, triangle_area};
+use lumen_mesh::{Topology, TriMesh, compacted, components, flat_caps, triangle_area};
 use lumen_vessel::width::widths;
 use lumen_vessel::{End, Tree, TreeError};
 
@@ -45,6 +49,12 @@ pub struct Plan {
 /// Something that was done otherwise than asked for.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Note {
+    /// Pieces are left out.
+    #[error("of {} pieces the largest is taken", others + 1)]
+    LeftOut {
+        /// How many others there were.
+        others: usize,
+    },
     /// An end has no plane.
     #[error("an end is not cut: {0}")]
     NoPlane(#[from] EndError),
@@ -109,8 +119,13 @@ pub struct Prepared {
 pub fn prepare(mesh: TriMesh, plan: &Plan) -> Result<Prepared, PrepareError> {
     check_surface(&mesh)?;
     let mut notes = Vec::new();
+    let (mesh, others) = largest_piece(mesh);
+    if others > 0 {
+        notes.push(Note::LeftOut { others });
+    }
     let (mut mesh, uncrossed) = if plan.uncross {
-        let mut found = uncross(&mesh)?;
+        // Edges of more than two triangles are no place to part surfaces at.
+        let mut found = uncross(&split(&mesh).mesh)?;
         (std::mem::take(&mut found.mesh), Some(found))
     } else {
         (mesh, None)
@@ -148,7 +163,7 @@ pub fn prepare(mesh: TriMesh, plan: &Plan) -> Result<Prepared, PrepareError> {
 /// The surface cut at its ends, as many of them as can be.
 fn clipped(mesh: TriMesh, at: ClipAt, notes: &mut Vec<Note>) -> Result<TriMesh, PrepareError> {
     let tree = Tree::new(&mesh)?;
-    let mut planes = match at {
+    let planes = match at {
         ClipAt::Round => {
             let proposal = propose(&mesh, &tree)?;
             notes.extend(proposal.refused.into_iter().map(Note::NoPlane));
@@ -167,17 +182,33 @@ fn clipped(mesh: TriMesh, at: ClipAt, notes: &mut Vec<Note>) -> Result<TriMesh, 
             planes
         }
     };
-    loop {
+    let mesh = cut_at(mesh, planes, notes);
+    // An end that is too near a fork for such a plane is cut just inside of its rim, where that is uneven.
+    let planes = planes_of_uneven_openings(&mesh)?;
+    Ok(cut_at(mesh, planes, notes))
+}
+
+/// The surface cut at those planes that cut it.
+fn cut_at(mesh: TriMesh, mut planes: Vec<EndPlane>, notes: &mut Vec<Note>) -> TriMesh {
+    while !planes.is_empty() {
         let error = match clip(&mesh, &planes) {
-            Ok(Clipped { mesh, .. }) => return Ok(mesh),
+            Ok(Clipped { mesh, .. }) => return mesh,
             Err(error) => error,
         };
-        let Some(end) = error.end().filter(|&end| end < planes.len()) else {
-            notes.push(error.into());
-            return Ok(mesh);
-        };
-        planes.remove(end);
+        let end = error.end().filter(|&end| end < planes.len());
         notes.push(error.into());
+        let Some(end) = end else { break };
+        planes.remove(end);
+    }
+    mesh
+}
+
+/// The largest piece of a surface, and how many others there were.
+fn largest_piece(mesh: TriMesh) -> (TriMesh, usize) {
+    let pieces = components(mesh.positions.len(), &mesh.triangles);
+    match pieces.largest().filter(|_| pieces.count() > 1) {
+        Some(largest) => (mesh.filtered(|t| pieces.of_triangle[t] == largest), pieces.count() - 1),
+        None => (mesh, 0),
     }
 }
 

@@ -16,7 +16,7 @@ use lumen_mesh::{SurfaceIndex, Topology, TriMesh, boundary_loops};
 use lumen_vessel::{Branch, End, Place, Tree};
 use thiserror::Error;
 
-pub use rim::{OpenEnd, RimError, SurfaceError, check_surface, names, open_ends};
+pub use rim::{OpenEnd, RimError, SurfaceError, check_surface, names, open_ends, planes_of_uneven_openings};
 pub(crate) use rim::{edges, forwards};
 
 /// The least over the largest width of a section that counts as round.

@@ -7,8 +7,11 @@ use lumen_mesh::cut::area_and_middle;
 use lumen_mesh::{EdgeUse, Topology, TriMesh, boundary_loops};
 use thiserror::Error;
 
+use super::EndPlane;
 use crate::PatchKind;
 
+/// How far inside of an uneven opening its plane is, in radii.
+const INWARDS: f64 = 0.1;
 /// A loop of fewer vertices is the rim of a missing triangle and no vessel.
 const FEWEST_SIDES: usize = 4;
 /// A loop is planar where no vertex is farther than this part of its radius from its plane.
@@ -215,6 +218,36 @@ pub fn open_ends(mesh: &TriMesh) -> Result<(Vec<OpenEnd>, Vec<RimError>), Surfac
         (end.kind, end.name) = (kind, name);
     }
     Ok((ends, refused))
+}
+
+/// Planes just inside of the openings that do not lie in one, so that a cut there takes all of the rim away. Where an end is
+/// too near a fork for a plane square to its centreline these are left.
+///
+/// # Errors
+/// [`SurfaceError`].
+pub fn planes_of_uneven_openings(mesh: &TriMesh) -> Result<Vec<EndPlane>, SurfaceError> {
+    check_surface(mesh)?;
+    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    let planes = boundary_loops(&topology).into_iter().filter_map(|rim| {
+        let end = OpenEnd::new(mesh, &topology, rim.clone(), String::new(), PatchKind::Outlet);
+        let Err(RimError::NotPlanar { radius_mm, .. }) = end else { return None };
+        let points: Vec<DVec3> = rim.iter().map(|&v| mesh.positions[v as usize].as_dvec3()).collect();
+        let mean = points.iter().sum::<DVec3>() / points.len() as f64;
+        let pairs = points.iter().zip(points.iter().cycle().skip(1));
+        let normal = pairs.map(|(&p, &q)| (q - mean).cross(p - mean)).sum::<DVec3>().try_normalize()?;
+        let deepest = points.iter().map(|&p| (p - mean).dot(normal)).fold(0.0, f64::min);
+        let arc_mm = INWARDS * radius_mm - deepest;
+        Some(EndPlane {
+            branch: 0,
+            at_end: false,
+            centre: mean - normal * arc_mm,
+            normal,
+            radius_mm,
+            roundness: 1.0,
+            arc_mm,
+        })
+    });
+    Ok(planes.collect())
 }
 
 /// What ends of these radii are and are called: the widest is the inlet, the others are outlet_1, outlet_2 and so on by
