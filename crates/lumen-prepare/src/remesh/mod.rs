@@ -39,6 +39,8 @@ const REPAIR_ROUNDS: usize = 3;
 const REPAIRS: usize = 4;
 /// By what wanted lengths are multiplied there.
 const REDUCTION: f64 = 0.7;
+/// The largest coordinate, in mm: products of four fit into an f32.
+const FARTHEST_MM: f32 = 1e9;
 /// Distances are first looked at in one of this many triangles.
 const SOME: usize = 64;
 /// Triangles that one thread looks at, at a time.
@@ -138,9 +140,9 @@ pub enum RemeshError {
         /// How many there are.
         count: usize,
     },
-    /// A coordinate is not a number.
-    #[error("vertex {vertex} has a coordinate that is not finite")]
-    NotFinite {
+    /// A coordinate is not a number, or beyond 1e9 mm.
+    #[error("vertex {vertex} has a coordinate that is not a number or beyond 1e9 mm")]
+    OutOfRange {
         /// The vertex.
         vertex: usize,
     },
@@ -181,7 +183,7 @@ pub enum RemeshError {
 /// lengths grow from where it is. Triangles that repeat a vertex are left out.
 ///
 /// # Errors
-/// Where a list has the wrong length, an index is out of range, a number is not finite, an edge has more than two triangles,
+/// Where a list has the wrong length, an index is out of range, a number is not finite or too large, an edge has more than two triangles,
 /// windings disagree, the sizing does not hold, or asks for more than 20 million triangles.
 pub fn remesh(surface: &Patched, radii: &[f32], sizing: &Sizing) -> Result<Remeshed, RemeshError> {
     check_sizing(sizing)?;
@@ -253,8 +255,10 @@ fn check(surface: &Patched, radii: &[f32]) -> Result<Vec<u32>, RemeshError> {
         let (found, expected) = (of_triangle.len(), mesh.triangles.len());
         return Err(RemeshError::Length { list: "the list of patches", found, expected });
     }
-    if let Some(vertex) = mesh.positions.iter().position(|p| !p.is_finite()) {
-        return Err(RemeshError::NotFinite { vertex });
+    // False for what is no number.
+    let is_within = |p: &Vec3| p.abs().cmple(Vec3::splat(FARTHEST_MM)).all();
+    if let Some(vertex) = mesh.positions.iter().position(|p| !is_within(p)) {
+        return Err(RemeshError::OutOfRange { vertex });
     }
     if let Some(vertex) = radii.iter().position(|&r| r.is_nan() || r < 0.0) {
         return Err(RemeshError::Radius { vertex, radius: radii[vertex] });
@@ -287,10 +291,13 @@ fn unsound(Unsound { non_manifold, flipped }: Unsound) -> RemeshError {
 fn check_count(net: &Net, triangles: &[[u32; 3]], lengths: &[f64]) -> Result<(), RemeshError> {
     let of_triangle = |corners: &[u32; 3]| {
         let length = corners.iter().map(|&v| lengths[v as usize]).sum::<f64>() / 3.0;
-        triangle_area(corners.map(|v| net.at[v as usize])) / (3.0f64.sqrt() / 4.0 * length * length)
+        let [a, b, c] = corners.map(|v| net.at[v as usize]);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        // One without area is cut into pieces too.
+        (triangle_area([a, b, c]) / (3.0f64.sqrt() / 4.0 * length * length)).max(f64::from(longest) / length - 4.0)
     };
     let about: f64 = triangles.iter().map(of_triangle).sum();
-    if about > MOST as f64 { Err(RemeshError::TooMany { about: about as u64, most: MOST }) } else { Ok(()) }
+    if about <= MOST as f64 { Ok(()) } else { Err(RemeshError::TooMany { about: about as u64, most: MOST }) }
 }
 
 /// The steps, and the clean-up after them.

@@ -131,7 +131,7 @@ pub(super) fn split_long(net: &mut Net, original: &Original, most: usize) {
         while h < net.half_edges() && net.triangle_count() < most {
             if net.is_edge(h) {
                 let stretch = net.stretch(h);
-                if stretch > LONG && is_longest(net, h, stretch) {
+                if stretch > LONG && is_longest(net, h, stretch) && can_halve(net, h) {
                     let m = net.split(h);
                     if let Some(place) = original.project(net, m, net.at[m as usize]) {
                         net.size[m as usize] = place.size;
@@ -146,6 +146,12 @@ pub(super) fn split_long(net: &mut Net, original: &Original, most: usize) {
             break;
         }
     }
+}
+
+/// Whether an edge is long enough for its middle to differ from its ends by more than rounding.
+fn can_halve(net: &Net, h: u32) -> bool {
+    let [a, b] = [net.origin(h), net.end(h)].map(|v| net.at[v as usize]);
+    a.distance(b) > 16.0 * f32::EPSILON * a.abs().max(b.abs()).max_element()
 }
 
 /// Whether no edge of the triangles beside `h` is more stretched.

@@ -2,11 +2,15 @@ use std::f64::consts::{PI, TAU};
 
 use lumen_mesh::mending::{Mending, mend};
 use lumen_mesh::shapes::{fork, icosphere, sagitta, tube};
+use lumen_mesh::split_mix::SplitMix64;
 use lumen_mesh::task::{Yielder, at_once};
 use lumen_mesh::{Topology, boundary_loops, surface_area, volume};
 
 use super::*;
 use crate::{Patch, PatchKind};
+
+/// Surfaces that a test makes by chance.
+const CASES: usize = 40;
 
 fn uniform(mm: f64) -> Sizing {
     Sizing { least_mm: mm, largest_mm: mm, ..Sizing::default() }
@@ -330,7 +334,9 @@ fn what_cannot_be_remeshed_is_refused_with_its_reason() {
     );
     let mut surface = tetrahedron();
     surface.mesh.positions[2].y = f32::NAN;
-    assert_eq!(refused(&surface, &radii, &sizing), RemeshError::NotFinite { vertex: 2 });
+    assert_eq!(refused(&surface, &radii, &sizing), RemeshError::OutOfRange { vertex: 2 });
+    surface.mesh.positions[2].y = 1e30;
+    assert_eq!(refused(&surface, &radii, &sizing), RemeshError::OutOfRange { vertex: 2 });
     let mut surface = tetrahedron();
     surface.mesh.triangles[1][2] = 9;
     assert!(matches!(refused(&surface, &radii, &sizing), RemeshError::Index { triangle: 1, index: 9, .. }));
@@ -359,4 +365,42 @@ fn what_cannot_be_remeshed_is_refused_with_its_reason() {
     }
     let huge = Sizing { least_mm: 1e-5, largest_mm: 1e-5, ..sizing };
     assert!(matches!(refused(&tetrahedron(), &radii, &huge), RemeshError::TooMany { .. }));
+}
+
+#[test]
+fn whatever_enters_comes_out_with_its_topology_or_an_error() {
+    let mut random = SplitMix64::new(7);
+    for _ in 0..CASES {
+        let mut below = |n: u64| random.bits() % n;
+        let mut mesh = if below(2) == 0 { icosphere(2, 3.0, Vec3::ZERO) } else { tube(9, 8, 10.0, |_| 2.0) };
+        let before = (euler(&mesh), boundary_loops(&Topology::new(mesh.positions.len(), &mesh.triangles)).len());
+        let count = mesh.positions.len() as u64;
+        let (spread, least_mm) = [(0.0, 0.3), (0.1, 0.5), (1.0, 2.0), (3.0, 10.0), (1e5, 1e5)][below(5) as usize];
+        for p in &mut mesh.positions {
+            *p += Vec3::new(below(2001) as f32 - 1000.0, below(2001) as f32 - 1000.0, below(2001) as f32 - 1000.0)
+                * (spread / 1000.0);
+        }
+        for _ in 0..[0, 3, 60][below(3) as usize] {
+            mesh.positions[below(count) as usize] = mesh.positions[below(count) as usize];
+        }
+        let patches = 1 + below(3);
+        let of_triangle =
+            mesh.triangles.iter().map(|_| if below(4) == 0 { below(patches) as u32 } else { 0 }).collect();
+        let radii: Vec<f32> = (0..count).map(|_| [0.0, 1e-3, 1.0, 5.0, f32::INFINITY][below(5) as usize]).collect();
+        let sizing = Sizing {
+            least_mm,
+            largest_mm: least_mm * [1.0, 3.0, 100.0][below(3) as usize],
+            growth: [1.01, 1.3, 10.0][below(3) as usize],
+            max_deviation_mm: [None, Some(0.1)][below(2) as usize],
+            ..Sizing::default()
+        };
+        let surface = Patched { mesh, of_triangle, patches: vec![Patch::wall(); patches as usize] };
+        let Ok(found) = remesh(&surface, &radii, &sizing) else { continue };
+        let new = &found.surface.mesh;
+        let topology = Topology::new(new.positions.len(), &new.triangles);
+        assert_eq!(topology.edge_counts().non_manifold + topology.edge_counts().flipped, 0);
+        assert_eq!((euler(new), boundary_loops(&topology).len()), before);
+        assert!(new.positions.iter().all(|p| p.is_finite()));
+        assert_eq!((found.from.len(), found.vertices.len()), (new.triangles.len(), new.positions.len()));
+    }
 }
