@@ -31,6 +31,9 @@ pub struct Deviation {
 
 impl Quality {
     /// Of the triangles of `mesh`; all 0 where there are none.
+    ///
+    /// # Panics
+    /// When an index of a triangle is out of range.
     pub fn of(mesh: &TriMesh) -> Self {
         let (mut sum, mut least, mut below) = (0.0, 180.0f64, 0usize);
         for t in 0..mesh.triangles.len() {
