@@ -1,8 +1,8 @@
-//! What is left with small angles after the steps: edges are flipped, vertices moved and edges collapsed where the least angle
-//! around grows by it.
+//! What is left with small angles after the steps: edges are flipped, vertices moved and edges collapsed where the
+//! least angle around grows by it.
 //!
-//! A vertex is moved by a pattern search along the surface (Freitag and Ollivier-Gooch, "Tetrahedral mesh improvement using
-//! swapping and smoothing", 1997, have the idea of moving a vertex for the worst of its elements).
+//! A vertex is moved by a pattern search along the surface (Freitag and Ollivier-Gooch, "Tetrahedral mesh improvement
+//! using swapping and smoothing", 1997, have the idea of moving a vertex for the worst of its elements).
 
 use glam::Vec3;
 
@@ -74,7 +74,8 @@ fn sharpest(net: &Net, v: u32, p: Vec3) -> f32 {
     net.around(v).map(at).fold(0.0, f32::max)
 }
 
-/// Collapses an edge if the sharpest triangle around what is left is less sharp than the sharpest around the vertex that goes.
+/// Collapses an edge if the sharpest triangle around what is left is less sharp than the sharpest around the vertex
+/// that goes.
 fn collapse_if_wider(net: &mut Net, h: u32) -> bool {
     let (v, w) = (net.origin(h), net.end(h));
     let target = net.at[w as usize];

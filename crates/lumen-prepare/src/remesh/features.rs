@@ -1,11 +1,10 @@
 //! Feature curves of the surface that enters: rims, borders between patches, and creases, as chains of edges between
 //! corners.
 //!
-//! A crease is an edge at which the faces turn by more than [`CREASE_DEG`], and so does the surface to both sides of it, seen over
-//! a wanted edge: the steps of a voxel grid do not. An edge of a triangle so thin that it has no normal to speak of is no
-//! crease, nor is a connected piece of creases shorter than [`SHORTEST`] wanted edges, nor a chain that could not be
-//! resolved. Rims and borders always are
-//! features.
+//! A crease is an edge at which the faces turn by more than [`CREASE_DEG`], and so does the surface to both sides of
+//! it, seen over a wanted edge: the steps of a voxel grid do not. An edge of a triangle so thin that it has no normal
+//! to speak of is no crease, nor is a connected piece of creases shorter than [`SHORTEST`] wanted edges, nor a chain
+//! that could not be resolved. Rims and borders always are features.
 
 use glam::{DVec3, Vec3};
 use lumen_mesh::disjoint_sets::{root, union};
@@ -149,8 +148,8 @@ fn drop_short_pieces(net: &mut Net, is_crease: &mut [bool]) {
     unmark(net, is_crease, |net, h| lengths[pieces[net.origin(h) as usize] as usize] < SHORTEST);
 }
 
-/// Drops chains of creases that are shorter than a wanted edge, and those shorter than [`SHORTEST_END`] that end in no other;
-/// whether there are any.
+/// Drops chains of creases that are shorter than a wanted edge, and those shorter than [`SHORTEST_END`] that end in no
+/// other; whether there are any.
 fn drop_weak(net: &mut Net, curves: &Curves, counts: &[u32], is_crease: &mut [bool]) -> bool {
     let mut lengths = vec![0.0f64; curves.count()];
     let mut has_end = vec![false; curves.count()];
@@ -164,8 +163,8 @@ fn drop_weak(net: &mut Net, curves: &Curves, counts: &[u32], is_crease: &mut [bo
     })
 }
 
-/// Whether the surface at `h`, whose faces have these normals, turns as seen over a wanted edge: the mean normals of places to
-/// both sides, up to that far away.
+/// Whether the surface at `h`, whose faces have these normals, turns as seen over a wanted edge: the mean normals of
+/// places to both sides, up to that far away.
 fn bends_widely(net: &Net, index: &SurfaceIndex, h: u32, normals: [DVec3; 2], limit: f64) -> bool {
     let [a, b] = [net.origin(h), net.end(h)].map(|v| net.at[v as usize].as_dvec3());
     let (middle, along) = (a.midpoint(b), (b - a).normalize_or_zero());

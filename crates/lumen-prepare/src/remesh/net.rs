@@ -1,9 +1,9 @@
 //! The surface while it changes: triangles with their neighbours, so that an edge is split, collapsed or flipped in the
 //! time that its surroundings take.
 //!
-//! Half-edge `3 t + i` runs from corner `i` of triangle `t` to the next one. Its twin runs the other way in the triangle
-//! beside; an edge of a rim has none. A vertex knows one half-edge that leaves it, at a rim the one that runs along the
-//! rim, so that turning left from it visits every triangle around.
+//! Half-edge `3 t + i` runs from corner `i` of triangle `t` to the next one. Its twin runs the other way in the
+//! triangle beside; an edge of a rim has none. A vertex knows one half-edge that leaves it, at a rim the one that runs
+//! along the rim, so that turning left from it visits every triangle around.
 
 use glam::Vec3;
 use lumen_mesh::Nearest;
@@ -24,7 +24,8 @@ pub(super) struct Net {
     pub(super) size: Vec<f32>,
     /// [`FREE`], [`CORNER`], or the number of the feature curve that the vertex is on.
     pub(super) kind: Vec<u32>,
-    /// Where a vertex lies on the surface that entered, or on its feature segments if it is on a curve; `None` where it is a vertex of them.
+    /// Where a vertex lies on the surface that entered, or on its feature segments if it is on a curve; `None` where it
+    /// is a vertex of them.
     pub(super) foot: Vec<Option<Nearest>>,
     /// Whether a vertex may have left the surface that entered.
     pub(super) is_adrift: Vec<bool>,
@@ -66,8 +67,8 @@ pub(super) struct Unsound {
 }
 
 impl Net {
-    /// The half-edges of `triangles`, whose indices are in range and differ within a triangle. A vertex whose triangles are several
-    /// fans becomes one vertex a fan, each a corner.
+    /// The half-edges of `triangles`, whose indices are in range and differ within a triangle. A vertex whose triangles
+    /// are several fans becomes one vertex a fan, each a corner.
     pub(super) fn new(positions: &[Vec3], triangles: &[[u32; 3]], patch: Vec<u32>) -> Result<Self, Unsound> {
         let origin: Vec<u32> = triangles.as_flattened().to_vec();
         let mut net = Self {
@@ -205,7 +206,8 @@ impl Net {
         Around { net: self, first, at: first }
     }
 
-    /// The neighbours of `v` with the half-edge between, counter-clockwise; that half-edge leaves `v`, but for the last one at a rim.
+    /// The neighbours of `v` with the half-edge between, counter-clockwise; that half-edge leaves `v`, but for the last
+    /// one at a rim.
     #[inline]
     pub(super) fn neighbours(&self, v: u32) -> impl Iterator<Item = (u32, u32)> + '_ {
         self.around(v).flat_map(move |h| {
@@ -325,7 +327,8 @@ impl Net {
         m
     }
 
-    /// Joins the apexes of the two triangles at `h` in place of its ends. The edge is no feature, and the apexes are no neighbours.
+    /// Joins the apexes of the two triangles at `h` in place of its ends. The edge is no feature, and the apexes are no
+    /// neighbours.
     pub(super) fn flip(&mut self, h: u32) {
         let g = self.twin(h);
         let (v, w, a, b) = (self.origin(h), self.end(h), self.apex(h), self.apex(g));
@@ -343,8 +346,9 @@ impl Net {
         self.anchor(w, gp);
     }
 
-    /// Whether the edge of `h` can shrink to its end with the surface still the same but for its shape: the link condition
-    /// (Dey, Edelsbrunner, Guha and Nekhayev, "Topology preserving edge contraction", 1999), and feature curves stay as they are.
+    /// Whether the edge of `h` can shrink to its end with the surface still the same but for its shape: the link
+    /// condition (Dey, Edelsbrunner, Guha and Nekhayev, "Topology preserving edge contraction", 1999), and feature
+    /// curves stay as they are.
     pub(super) fn can_collapse(&self, h: u32) -> bool {
         let (v, w, g) = (self.origin(h), self.end(h), self.twin(h));
         let kind = self.kind[v as usize];

@@ -1,9 +1,9 @@
 //! The wanted edge length at each vertex of the surface that enters.
 //!
-//! A length is the circumference `2 pi r` of the vessel over the edges around it. Where a bound `d` on the deviation is given
-//! it is at most `sqrt(6 d / k)` at a curvature `k`: a triangle of that side, its corners on a sphere, lies at most `d` below it; on a feature curve
-//! `sqrt(8 d / k)`, the chord of a circle. Lengths are then graded: along each edge they grow by at most
-//! half of `growth - 1` mm a mm, from the least one on, in the order of Dijkstra.
+//! A length is the circumference `2 pi r` of the vessel over the edges around it. Where a bound `d` on the deviation is
+//! given it is at most `sqrt(6 d / k)` at a curvature `k`: a triangle of that side, its corners on a sphere, lies at
+//! most `d` below it; on a feature curve `sqrt(8 d / k)`, the chord of a circle. Lengths are then graded: along each
+//! edge they grow by at most half of `growth - 1` mm a mm, from the least one on, in the order of Dijkstra.
 
 use std::collections::BinaryHeap;
 
@@ -12,8 +12,8 @@ use glam::DVec3;
 use super::Sizing;
 use super::net::{FREE, NONE, Net};
 
-/// The part of `growth - 1` that lengths grow by on a mm. Triangles differ from their wanted size, so that with a half the
-/// growth holds from triangle to triangle too.
+/// The part of `growth - 1` that lengths grow by on a mm. Triangles differ from their wanted size, so that with a half
+/// the growth holds from triangle to triangle too.
 const SLOPE: f64 = 0.5;
 /// Rounds of averaging of the curvature over neighbours, against noise.
 const AVERAGING: usize = 2;
@@ -89,8 +89,8 @@ pub(super) fn vertex_normal(net: &Net, v: u32) -> DVec3 {
     doubled.sum::<DVec3>().normalize_or_zero()
 }
 
-/// Lowers `lengths` until none grows faster than `sizing.growth` along an edge, none is above the largest and none below the
-/// least.
+/// Lowers `lengths` until none grows faster than `sizing.growth` along an edge, none is above the largest and none
+/// below the least.
 pub(super) fn grade(net: &Net, sizing: &Sizing, lengths: &mut [f64]) {
     let slope = SLOPE * (sizing.growth - 1.0);
     // Lengths are above 0, so their bits are in their order; the heap gives the least first.

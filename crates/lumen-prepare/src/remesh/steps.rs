@@ -1,7 +1,7 @@
-//! The steps of Botsch and Kobbelt, "A remeshing approach to multiresolution modeling" (2004): long edges are split, short
-//! ones collapsed, edges flipped towards six neighbours a vertex, and vertices relaxed along the surface, with lengths
-//! that differ from place to place (Dunyach, Vanderhaeghe, Barthe and Botsch, "Adaptive remeshing for real-time mesh
-//! deformation", 2013).
+//! The steps of Botsch and Kobbelt, "A remeshing approach to multiresolution modeling" (2004): long edges are split,
+//! short ones collapsed, edges flipped towards six neighbours a vertex, and vertices relaxed along the surface, with
+//! lengths that differ from place to place (Dunyach, Vanderhaeghe, Barthe and Botsch, "Adaptive remeshing for real-time
+//! mesh deformation", 2013).
 //!
 //! A vertex on a feature curve splits, collapses and relaxes along the curve alone, a corner stays.
 
@@ -131,7 +131,7 @@ pub(super) fn split_long(net: &mut Net, original: &Original, most: usize) {
         while h < net.half_edges() && net.triangle_count() < most {
             if net.is_edge(h) {
                 let stretch = net.stretch(h);
-                if stretch > LONG && is_longest(net, h, stretch) {
+                if stretch > LONG && is_longest(net, h, stretch) && can_halve(net, h) {
                     let m = net.split(h);
                     if let Some(place) = original.project(net, m, net.at[m as usize]) {
                         net.size[m as usize] = place.size;
@@ -146,6 +146,12 @@ pub(super) fn split_long(net: &mut Net, original: &Original, most: usize) {
             break;
         }
     }
+}
+
+/// Whether an edge is long enough for its middle to differ from its ends by more than rounding.
+fn can_halve(net: &Net, h: u32) -> bool {
+    let [a, b] = [net.origin(h), net.end(h)].map(|v| net.at[v as usize]);
+    a.distance(b) > 16.0 * f32::EPSILON * a.abs().max(b.abs()).max_element()
 }
 
 /// Whether no edge of the triangles beside `h` is more stretched.
@@ -182,8 +188,8 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32) {
     }
 }
 
-/// Whether the collapse of an edge to its end turns no face over and makes no edge longer than `longest`, squared, in wanted
-/// lengths.
+/// Whether the collapse of an edge to its end turns no face over and makes no edge longer than `longest`, squared, in
+/// wanted lengths.
 pub(super) fn keeps_shape(net: &Net, h: u32, longest: f32) -> bool {
     let (v, w) = (net.origin(h), net.end(h));
     let target = net.at[w as usize];
@@ -256,8 +262,8 @@ fn quad(net: &Net, h: u32) -> Option<[u32; 4]> {
     Some([net.origin(h), net.end(h), net.apex(h), net.apex(net.twin(h))])
 }
 
-/// Whether an edge with these ends and opposite corners can be flipped: the four lie nearly in a plane and go round, and
-/// no triangle gets worse than `least`, or than those that were there.
+/// Whether an edge with these ends and opposite corners can be flipped: the four lie nearly in a plane and go round,
+/// and no triangle gets worse than `least`, or than those that were there.
 fn may_flip(net: &Net, [v, w, a, b]: [u32; 4], least: f32) -> bool {
     let [p, q, r, s] = [v, w, a, b].map(|v| net.at[v as usize]);
     let old = [doubled([p, q, r]), doubled([q, p, s])];
@@ -278,8 +284,8 @@ enum Step {
     Settle(Place),
 }
 
-/// Moves vertices along the surface to the middle of their triangles, each weighted by its area in wanted lengths; free ones
-/// are put back on the surface if `is_last`.
+/// Moves vertices along the surface to the middle of their triangles, each weighted by its area in wanted lengths; free
+/// ones are put back on the surface if `is_last`.
 pub(super) fn relax(net: &mut Net, original: &Original, is_last: bool) {
     let steps = parallel::map_ranges(net.at.len(), CHUNK, |vertices| {
         let step = |v: usize| {

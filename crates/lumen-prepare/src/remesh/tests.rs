@@ -2,11 +2,15 @@ use std::f64::consts::{PI, TAU};
 
 use lumen_mesh::mending::{Mending, mend};
 use lumen_mesh::shapes::{fork, icosphere, sagitta, tube};
+use lumen_mesh::split_mix::SplitMix64;
 use lumen_mesh::task::{Yielder, at_once};
 use lumen_mesh::{Topology, boundary_loops, surface_area, volume};
 
 use super::*;
 use crate::{Patch, PatchKind};
+
+/// Surfaces that a test makes by chance.
+const CASES: usize = 40;
 
 fn uniform(mm: f64) -> Sizing {
     Sizing { least_mm: mm, largest_mm: mm, ..Sizing::default() }
@@ -29,7 +33,6 @@ fn a_sphere_gets_even_triangles_of_the_wanted_length_on_itself() {
     let deep = sagitta(&sphere, 10.0, Vec3::ONE);
     for mm in [0.4, 1.0, 2.0] {
         let found = remesh(&Patched::wall(sphere.clone()), &vec![10.0; sphere.positions.len()], &uniform(mm)).unwrap();
-        println!("{mm}: {} {:?} {:?}", found.surface.mesh.triangles.len(), found.quality, found.deviation);
         let mesh = &found.surface.mesh;
         for p in &mesh.positions {
             let radius = p.distance(Vec3::ONE);
@@ -49,7 +52,6 @@ fn edges_follow_the_radius_of_a_tube_and_its_rims_stay() {
     let mesh = tube(60, 150, 30.0, radius);
     let radii: Vec<f32> = mesh.positions.iter().map(|p| radius(p.z)).collect();
     let found = remesh(&Patched::wall(mesh.clone()), &radii, &Sizing::default()).unwrap();
-    println!("{} {:?} {:?}", found.surface.mesh.triangles.len(), found.quality, found.deviation);
     assert_good(&found);
     let new = &found.surface.mesh;
     let topology = Topology::new(new.positions.len(), &new.triangles);
@@ -60,7 +62,6 @@ fn edges_follow_the_radius_of_a_tube_and_its_rims_stay() {
         ratios.push(f64::from(p.distance(q)) / wanted);
     }
     let near = ratios.iter().filter(|ratio| (0.65..1.35).contains(*ratio)).count();
-    println!("{near} of {} edges within 35 %", ratios.len());
     assert!(near as f64 >= 0.97 * ratios.len() as f64);
     assert!(ratios.iter().all(|ratio| (0.6..1.5).contains(ratio)), "{ratios:?}");
     let loops = boundary_loops(&topology);
@@ -96,11 +97,23 @@ fn capped(sides: u32, rings: u32, length: f32, radius: f32) -> Patched {
 }
 
 #[test]
+fn the_calibre_of_a_tube_stays() {
+    let mesh = tube(120, 200, 40.0, |_| 2.0);
+    let measured = |mesh: &TriMesh| volume(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles)) / 40.0;
+    let before = (measured(&mesh) / PI).sqrt();
+    for (around, part) in [(12.0, 0.03), (24.0, 0.01)] {
+        let radii = vec![2.0; mesh.positions.len()];
+        let found = remesh(&Patched::wall(mesh.clone()), &radii, &Sizing { around, ..Sizing::default() }).unwrap();
+        let after = (measured(&found.surface.mesh) / PI).sqrt();
+        assert!((after / before - 1.0).abs() < part);
+    }
+}
+
+#[test]
 fn caps_stay_flat_round_and_watertight() {
     let surface = capped(96, 60, 20.0, 3.0);
     let radii = vec![3.0; surface.mesh.positions.len()];
     let found = remesh(&surface, &radii, &Sizing { around: 60.0, ..Sizing::default() }).unwrap();
-    println!("{} {:?} {:?}", found.surface.mesh.triangles.len(), found.quality, found.deviation);
     assert_good(&found);
     let Patched { mesh, of_triangle, .. } = &found.surface;
     let edges = Topology::new(mesh.positions.len(), &mesh.triangles).edge_counts();
@@ -130,7 +143,6 @@ fn cube(size: f32) -> TriMesh {
 fn a_cube_keeps_its_edges_corners_and_volume() {
     let mesh = cube(10.0);
     let found = remesh(&Patched::wall(mesh), &[f32::INFINITY; 8], &uniform(0.9)).unwrap();
-    println!("{} {:?} {:?}", found.surface.mesh.triangles.len(), found.quality, found.deviation);
     let new = &found.surface.mesh;
     assert_eq!((found.curves, found.corners), (12, 8));
     let topology = Topology::new(new.positions.len(), &new.triangles);
@@ -146,7 +158,6 @@ fn neighbouring_triangles_are_of_like_size() {
     // A narrow mark at one place, the rest unknown.
     let radii: Vec<f32> = mesh.positions.iter().map(|p| if p.z < 1.0 { 0.5 } else { f32::INFINITY }).collect();
     let found = remesh(&Patched::wall(mesh), &radii, &Sizing { largest_mm: 2.5, ..Sizing::default() }).unwrap();
-    println!("{} {:?} {:?}", found.surface.mesh.triangles.len(), found.quality, found.deviation);
     assert_good(&found);
     let new = &found.surface.mesh;
     let side = |t: usize| {
@@ -164,7 +175,6 @@ fn neighbouring_triangles_are_of_like_size() {
     }
     ratios.sort_by(f64::total_cmp);
     let at = |part: f64| ratios[((ratios.len() - 1) as f64 * part) as usize];
-    println!("ratios: median {} 99 % {} most {}", at(0.5), at(0.99), at(1.0));
     assert!(at(0.99) <= 1.3);
     let largest = (0..new.triangles.len()).map(side).fold(0.0, f64::max);
     assert!(largest > 2.0, "sizes grow away from the mark: {largest}");
@@ -179,17 +189,7 @@ fn a_fork_of_three_calibres_is_remeshed() {
     let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
     let radii = lumen_mesh::inner_radii(&mesh, &topology, &index).radii;
     let before = volume(&mesh, &topology);
-    let start = std::time::Instant::now();
     let found = remesh(&Patched::wall(mesh), &radii, &Sizing::default()).unwrap();
-    println!(
-        "{} {:?} {:?} {} curves {} corners {:?}",
-        found.surface.mesh.triangles.len(),
-        found.quality,
-        found.deviation,
-        found.curves,
-        found.corners,
-        start.elapsed()
-    );
     assert_good(&found);
     let new = &found.surface.mesh;
     assert_eq!(euler(new), 2);
@@ -330,7 +330,9 @@ fn what_cannot_be_remeshed_is_refused_with_its_reason() {
     );
     let mut surface = tetrahedron();
     surface.mesh.positions[2].y = f32::NAN;
-    assert_eq!(refused(&surface, &radii, &sizing), RemeshError::NotFinite { vertex: 2 });
+    assert_eq!(refused(&surface, &radii, &sizing), RemeshError::OutOfRange { vertex: 2 });
+    surface.mesh.positions[2].y = 1e30;
+    assert_eq!(refused(&surface, &radii, &sizing), RemeshError::OutOfRange { vertex: 2 });
     let mut surface = tetrahedron();
     surface.mesh.triangles[1][2] = 9;
     assert!(matches!(refused(&surface, &radii, &sizing), RemeshError::Index { triangle: 1, index: 9, .. }));
@@ -359,4 +361,42 @@ fn what_cannot_be_remeshed_is_refused_with_its_reason() {
     }
     let huge = Sizing { least_mm: 1e-5, largest_mm: 1e-5, ..sizing };
     assert!(matches!(refused(&tetrahedron(), &radii, &huge), RemeshError::TooMany { .. }));
+}
+
+#[test]
+fn whatever_enters_comes_out_with_its_topology_or_an_error() {
+    let mut random = SplitMix64::new(7);
+    for _ in 0..CASES {
+        let mut below = |n: u64| random.bits() % n;
+        let mut mesh = if below(2) == 0 { icosphere(2, 3.0, Vec3::ZERO) } else { tube(9, 8, 10.0, |_| 2.0) };
+        let before = (euler(&mesh), boundary_loops(&Topology::new(mesh.positions.len(), &mesh.triangles)).len());
+        let count = mesh.positions.len() as u64;
+        let (spread, least_mm) = [(0.0, 0.3), (0.1, 0.5), (1.0, 2.0), (3.0, 10.0), (1e5, 1e5)][below(5) as usize];
+        for p in &mut mesh.positions {
+            *p += Vec3::new(below(2001) as f32 - 1000.0, below(2001) as f32 - 1000.0, below(2001) as f32 - 1000.0)
+                * (spread / 1000.0);
+        }
+        for _ in 0..[0, 3, 60][below(3) as usize] {
+            mesh.positions[below(count) as usize] = mesh.positions[below(count) as usize];
+        }
+        let patches = 1 + below(3);
+        let of_triangle =
+            mesh.triangles.iter().map(|_| if below(4) == 0 { below(patches) as u32 } else { 0 }).collect();
+        let radii: Vec<f32> = (0..count).map(|_| [0.0, 1e-3, 1.0, 5.0, f32::INFINITY][below(5) as usize]).collect();
+        let sizing = Sizing {
+            least_mm,
+            largest_mm: least_mm * [1.0, 3.0, 100.0][below(3) as usize],
+            growth: [1.01, 1.3, 10.0][below(3) as usize],
+            max_deviation_mm: [None, Some(0.1)][below(2) as usize],
+            ..Sizing::default()
+        };
+        let surface = Patched { mesh, of_triangle, patches: vec![Patch::wall(); patches as usize] };
+        let Ok(found) = remesh(&surface, &radii, &sizing) else { continue };
+        let new = &found.surface.mesh;
+        let topology = Topology::new(new.positions.len(), &new.triangles);
+        assert_eq!(topology.edge_counts().non_manifold + topology.edge_counts().flipped, 0);
+        assert_eq!((euler(new), boundary_loops(&topology).len()), before);
+        assert!(new.positions.iter().all(|p| p.is_finite()));
+        assert_eq!((found.from.len(), found.vertices.len()), (new.triangles.len(), new.positions.len()));
+    }
 }

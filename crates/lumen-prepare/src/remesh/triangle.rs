@@ -37,8 +37,8 @@ pub(super) fn sharpness([a, b, c]: [Vec3; 3]) -> f32 {
     if product > 0.0 { dot / product.sqrt() } else { 1.0 }
 }
 
-/// Whether a triangle may become another: its face turns by at most 60 degrees, or by less than 90 from what `facing` says where it has no
-/// normal, and it does not become a sliver unless it is one.
+/// Whether a triangle may become another: its face turns by at most 60 degrees, or by less than 90 from what `facing`
+/// says where it has no normal, and it does not become a sliver unless it is one.
 #[inline]
 pub(super) fn may_become(old: [Vec3; 3], new: [Vec3; 3], facing: impl FnOnce() -> Vec3) -> bool {
     let (before, after) = (quality(old), quality(new));
