@@ -515,6 +515,7 @@ mod tests {
             let mesh = tube(48, 80, 40.0, |_| 2.0);
             let clipped = clip(&mesh, &[plane(DVec3::new(0.3, 0.1, z), DVec3::Z, 2.0)]).unwrap();
             assert_sound(&clipped.mesh, 2);
+            assert!(self_intersections(&clipped.mesh).is_empty());
             let [end] = &clipped.ends[..] else { panic!("one end") };
             assert!(end.rim.iter().all(|&v| (f64::from(clipped.mesh.positions[v as usize].z) - z).abs() < 1e-5));
             // Between rings the wall lies inside of the circle by no more than the sagitta of a chord.

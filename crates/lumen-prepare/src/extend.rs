@@ -294,8 +294,8 @@ mod tests {
         assert_eq!((counts.non_manifold, counts.flipped, counts.boundary), (0, 0, 96));
         assert!(vertices_are_manifold(&extended.mesh, &topology));
         assert!(self_intersections(&extended.mesh).is_empty());
-        let low = f64::from(extended.mesh.bounds().min.z);
-        let high = f64::from(extended.mesh.bounds().max.z);
+        let low = f64::from(extended.mesh.bounds().min[2]);
+        let high = f64::from(extended.mesh.bounds().max[2]);
         assert!((low + 9.0).abs() < 1e-5 && (high - 20.0 - 5.0 * ends[1].radius_mm()).abs() < 1e-5, "{low} {high}");
         for (end, before) in extended.ends.iter().zip(&ends) {
             assert!((end.area_mm2 / before.area_mm2 - 1.0).abs() < 1e-5);
