@@ -1,24 +1,26 @@
 //! Cuts, extends and caps the ends of vessel surfaces, and prints what came of each: `prepare FILE...`.
 
 use lumen_io::{ImportOptions, read};
+use lumen_mesh::mending::fill::fill;
 use lumen_mesh::{Topology, TriMesh, self_intersections};
 use lumen_prepare::cap::{CapKind, cap};
 use lumen_prepare::clip::{Clipped, clip};
-use lumen_prepare::ends::{EndPlane, Length, OpenEnd, propose};
+use lumen_prepare::ends::{EndPlane, Length, OpenEnd, open_ends, propose};
 use lumen_prepare::extend::{ExtendError, extend};
 use lumen_vessel::Tree;
 
 /// Cuts at every plane that can be cut, and tells why others cannot.
 fn clip_what_can_be(mesh: &TriMesh, planes: &[EndPlane]) -> Clipped {
-    let mut kept: Vec<EndPlane> = Vec::new();
-    for plane in planes {
-        kept.push(plane.clone());
-        if let Err(error) = clip(mesh, &kept) {
-            println!("  not cut: branch {}: {error}", plane.branch + 1);
-            kept.pop();
+    let mut kept = planes.to_vec();
+    loop {
+        match clip(mesh, &kept) {
+            Ok(clipped) => return clipped,
+            Err(error) => {
+                let end = error.end().unwrap_or(kept.len().saturating_sub(1));
+                println!("  not cut: branch {}: {error}", kept.remove(end).branch + 1);
+            }
         }
     }
-    clip(mesh, &kept).expect("it was cut before")
 }
 
 fn main() {
@@ -47,10 +49,8 @@ fn main() {
         for error in &proposal.refused {
             println!("  refused: {error}");
         }
-        let clipped = clip_what_can_be(&mesh, &proposal.planes);
         let started = std::time::Instant::now();
-        let planes: Vec<EndPlane> = proposal.planes.clone();
-        let _ = clip(&mesh, &planes);
+        let clipped = clip_what_can_be(&mesh, &proposal.planes);
         let clipped_s = started.elapsed().as_secs_f64();
         println!(
             "  {} branches, {} ends proposed, {} refused, {} cut ({proposed_s:.2} s, {clipped_s:.2} s), {} triangles cross, {} before",
@@ -63,14 +63,14 @@ fn main() {
         );
         let (mut surface, mut ends) = (clipped.mesh, clipped.ends);
         let mut extended = 0;
-        for i in 0..ends.len() {
-            let one: [OpenEnd; 1] = [ends[i].clone()];
+        for end in &mut ends {
+            let one: [OpenEnd; 1] = [end.clone()];
             let mut length = Length::Radii(5.0);
             for _ in 0..2 {
                 match extend(&surface, &one, &[length]) {
                     Ok(found) => {
                         surface = found.mesh;
-                        ends[i] = found.ends[0].clone();
+                        *end = found.ends[0].clone();
                         extended += 1;
                         break;
                     }
@@ -85,7 +85,20 @@ fn main() {
                 }
             }
         }
-        println!("  {extended} extended");
+        // Holes in the wall, and ends that no branch leads to.
+        let filled = fill(&surface, f64::INFINITY);
+        let (others, refused) = open_ends(&filled.mesh).expect("a sound surface");
+        let has = |end: &OpenEnd, v: u32| end.rim.contains(&v);
+        let others: Vec<OpenEnd> =
+            others.into_iter().filter(|other| !ends.iter().any(|end| has(end, other.rim[0]))).collect();
+        println!(
+            "  {extended} extended, {} holes filled, {} other open ends, {} loops that are none: {refused:?}",
+            filled.filled,
+            others.len(),
+            refused.len()
+        );
+        ends.extend(others);
+        let surface = filled.mesh;
         for kind in [CapKind::Fan, CapKind::Planar, CapKind::Smooth] {
             match cap(&surface, &ends, kind) {
                 Ok(patched) => println!(

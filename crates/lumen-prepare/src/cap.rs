@@ -16,7 +16,7 @@ use lumen_mesh::{Topology, TriMesh, boundary_loops, triangle_area};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use thiserror::Error;
 
-use crate::ends::{OpenEnd, RimError, SurfaceError, check_surface, edges};
+use crate::ends::{OpenEnd, RimError, SurfaceError, check_surface};
 use crate::extend::slopes;
 use crate::{Patch, Patched};
 
@@ -233,7 +233,7 @@ impl<'a> Section<'a> {
             self.rim.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
         let row_height = self.edge * 0.75f64.sqrt();
         let [columns, rows] = [(high.x - low.x) / self.edge, (high.y - low.y) / row_height];
-        if !(columns * rows <= MOST_VERTICES) {
+        if !(0.0..=MOST_VERTICES).contains(&(columns * rows)) {
             return Err(CapError::TooFine { name: self.end.name.clone() });
         }
         let mut points = Vec::new();
@@ -356,7 +356,7 @@ mod tests {
 
     use super::*;
     use crate::PatchKind;
-    use crate::ends::open_ends;
+    use crate::ends::{edges, open_ends};
 
     const KINDS: [CapKind; 3] = [CapKind::Fan, CapKind::Planar, CapKind::Smooth];
 

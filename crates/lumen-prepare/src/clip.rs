@@ -92,6 +92,23 @@ pub enum ClipError {
     Rim(#[from] RimError),
 }
 
+impl ClipError {
+    /// The place of the plane that cannot be cut at, where it is that of one plane.
+    pub fn end(&self) -> Option<usize> {
+        match self {
+            Self::Plane { end }
+            | Self::NoOutline { end }
+            | Self::Open { end }
+            | Self::NonManifold { end }
+            | Self::TooCoarse { end }
+            | Self::NotSeparating { end }
+            | Self::OtherEnd { end, .. }
+            | Self::MostOfSurface { end, .. } => Some(*end),
+            Self::Surface(_) | Self::Rim(_) => None,
+        }
+    }
+}
+
 /// What a plane removed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Removed {

@@ -159,7 +159,7 @@ impl Tube {
         let length = length.mm(radius).filter(|&mm| mm > 0.0).ok_or_else(|| ExtendError::Length { name: name() })?;
         let edge_mm = end.mean_edge(mesh);
         let rings = (length / edge_mm).round().max(1.0);
-        if !(rings <= MOST_RINGS) {
+        if !(1.0..=MOST_RINGS).contains(&rings) {
             return Err(ExtendError::TooLong { name: name(), length_mm: length, edge_mm });
         }
         let OpenEnd { centre, normal, .. } = *end;
