@@ -1,317 +1,497 @@
-//! Closes the open ends of a surface, each with a patch of its own.
+//! Caps: a patch over every open end, so that the surface encloses a volume.
 //!
-//! A planar cap is a constrained Delaunay triangulation (the crate `spade`) of the rim and of a hexagonal grid of points in
-//! it, as far apart as the rim's vertices are; the points take the mean of their neighbours a few times. A smooth cap is the
-//! same disc raised to a dome: what is at the part `q` of the way from the middle to the rim goes to the angle `q pi / 2` of a
-//! half ellipsoid, so that it leaves the rim along the wall of a cylinder.
-
-use std::f64::consts::FRAC_PI_2;
+//! A fan has one vertex in the middle. A planar cap has vertices on a hexagonal grid of the rim's mean edge length; these
+//! are moved to the mean of their neighbours a few times, and a constrained Delaunay triangulation joins them (Shewchuk,
+//! "Delaunay refinement algorithms for triangular mesh generation", 2002; crate `spade`). A smooth cap is a planar one
+//! raised to a dome that continues the wall: the clamped biharmonic (thin-plate) surface over a disc. With the vertex of
+//! the planar cap at the part r of the way from the middle to the rim point b, whose wall leads s mm across the axis for
+//! each mm along it, on a section of radius R, it lies at
+//!
+//! `b (3 r - r^3) / 2 + s R r^2 (1 - r) + n R (1 - r^2) / 2`
+//!
+//! from the middle, n the normal. A round straight vessel so ends in a dome half a radius high.
 
 use glam::{DVec2, DVec3};
-use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
+use lumen_mesh::{Topology, TriMesh, boundary_loops, triangle_area};
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use thiserror::Error;
 
-use super::ends::{OpenEnd, RimError, SurfaceError, check_surface};
-use super::{Patch, Patched};
-use lumen_mesh::{Topology, TriMesh};
+use crate::ends::{OpenEnd, RimError, SurfaceError, check_surface};
+use crate::extend::slopes;
+use crate::{Patch, Patched};
 
-/// How an end is closed.
+/// Grid points nearer to the rim than this part of its mean edge are left out.
+const FROM_RIM: f64 = 0.6;
+/// Rounds in which inner vertices move to the mean of their neighbours.
+const SMOOTHINGS: usize = 8;
+/// The most inner vertices of a cap.
+const MOST_VERTICES: f64 = 1e6;
+
+/// The shape of a cap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CapKind {
-    /// Triangles from the rim to one vertex in the middle.
+    /// Triangles from one vertex in the middle.
     Fan,
-    /// An even mesh in the plane.
+    /// Flat, with triangles of the rim's size.
     Planar,
-    /// A dome as high as the end's radius that goes on from the wall.
+    /// A dome that continues the wall, with triangles of about the rim's size.
     Smooth,
 }
 
-/// Points of the grid are at least this part of their distance away from the rim.
-const CLEAR: f64 = 0.7;
-/// Times that points take the mean of their neighbours.
-const ROUNDS: usize = 6;
-/// The most points in a cap.
-const MOST: f64 = 1e6;
-
-/// Why an end cannot be closed.
+/// Why a surface cannot be capped.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CapError {
     /// The surface is broken.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// The end is no planar loop of the surface.
+    /// An end is none of this surface.
     #[error(transparent)]
     Rim(#[from] RimError),
-    /// The rim crosses itself, or has edges so short that the cap would have more than a million vertices.
-    #[error("the rim of {name} crosses itself or is too uneven to be closed")]
-    Uneven {
+    /// There is nothing to cap.
+    #[error("there is no open end to cap")]
+    NoEnds,
+    /// Two ends have a vertex in common, or are the same.
+    #[error("two ends share vertex {vertex}")]
+    Shared {
+        /// Vertex of the surface.
+        vertex: u32,
+    },
+    /// The surface is open besides its ends.
+    #[error("the surface has {holes} boundary loops besides its open ends: fill them first")]
+    Holes {
+        /// How many.
+        holes: usize,
+    },
+    /// The outline is not seen whole from its middle.
+    #[error("the outline of {name} is folded: it is not seen whole from its middle")]
+    Folded {
+        /// The end.
+        name: String,
+    },
+    /// The outline crosses itself or passes a point twice.
+    #[error("the outline of {name} crosses or touches itself")]
+    SelfCrossing {
+        /// The end.
+        name: String,
+    },
+    /// The cap would take too many vertices.
+    #[error("the edges of {name} are too short for its area: a cap would take more than {MOST_VERTICES:.0} vertices")]
+    TooFine {
+        /// The end.
+        name: String,
+    },
+    /// A cap would share an edge with triangles of the wall.
+    #[error("a cap of {name} would join two vertices that the wall joins already")]
+    Joined {
         /// The end.
         name: String,
     },
 }
 
-/// Closes `ends` of `mesh`. The wall is the first patch, and each end one behind it, in their order.
+/// Closes `mesh` at `ends`, which are all of its boundary loops. The wall is patch 1; the ends are patches 2, 3 and so on in
+/// their order, with the area of their caps.
 ///
 /// # Errors
-/// [`CapError`]. Nothing is closed where one end cannot be.
+/// [`CapError`]. Nothing is capped where one end cannot be.
 pub fn cap(mesh: &TriMesh, ends: &[OpenEnd], kind: CapKind) -> Result<Patched, CapError> {
     check_surface(mesh)?;
-    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-    let mut surface = Patched::wall(mesh.clone());
-    for (i, end) in ends.iter().enumerate() {
-        let end = end.measured(mesh, &topology)?;
-        let disc = Disc::of(mesh, &end, kind).ok_or_else(|| CapError::Uneven { name: end.name.clone() })?;
-        let first = surface.mesh.positions.len() as u32;
-        surface.mesh.positions.extend(disc.inner.iter().map(|p| p.as_vec3()));
-        let vertex = |v: usize| end.rim.get(v).copied().unwrap_or(first + (v - end.rim.len().min(v)) as u32);
-        surface.mesh.triangles.extend(disc.triangles.iter().map(|corners| corners.map(vertex)));
-        surface.of_triangle.resize(surface.mesh.triangles.len(), i as u32 + 1);
-        let (centre, normal) = (end.centre.to_array(), end.normal.to_array());
-        let (name, kind, area_mm2) = (end.name.clone(), end.kind, end.area_mm2);
-        surface.patches.push(Patch { id: i as u32 + 2, name, kind, centre, normal, area_mm2 });
+    if ends.is_empty() {
+        return Err(CapError::NoEnds);
     }
-    Ok(surface)
+    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    let mut rims: Vec<u32> = ends.iter().flat_map(|end| end.rim.iter().copied()).collect();
+    let ends: Vec<OpenEnd> = ends.iter().map(|end| end.measured(mesh, &topology)).collect::<Result<_, _>>()?;
+    rims.sort_unstable();
+    if let Some(pair) = rims.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(CapError::Shared { vertex: pair[0] });
+    }
+    let is_of_end = |v: &u32| rims.binary_search(v).is_ok();
+    let holes = boundary_loops(&topology).iter().filter(|chain| !chain.iter().all(is_of_end)).count();
+    if holes > 0 {
+        return Err(CapError::Holes { holes });
+    }
+    let mut patched = Patched::wall(mesh.clone());
+    for (id, end) in (2..).zip(&ends) {
+        let section = Section::new(mesh, end);
+        let lid = match kind {
+            CapKind::Fan => section.fan()?,
+            CapKind::Planar => section.planar()?,
+            CapKind::Smooth => section.planar()?.raised(&section, &slopes(mesh, &topology, end))?,
+        };
+        let count = end.rim.len();
+        let first = patched.mesh.positions.len() as u32;
+        let number = |v: usize| end.rim.get(v).copied().unwrap_or(first + (v.saturating_sub(count)) as u32);
+        // An edge that the wall has already would have four triangles.
+        for [a, b, c] in &lid.triangles {
+            for (a, b) in [(*a, *b), (*b, *c), (*c, *a)] {
+                let is_chord = a < count && b < count && (a + 1) % count != b && (b + 1) % count != a;
+                if is_chord && topology.edge(number(a), number(b)).is_some() {
+                    return Err(CapError::Joined { name: end.name.clone() });
+                }
+            }
+        }
+        patched.mesh.positions.extend(lid.inner.iter().map(|p| p.as_vec3()));
+        let before = patched.mesh.triangles.len();
+        patched.mesh.triangles.extend(lid.triangles.iter().map(|t| t.map(number)));
+        patched.of_triangle.resize(patched.mesh.triangles.len(), id - 1);
+        let own = before..patched.mesh.triangles.len();
+        patched.patches.push(Patch {
+            id,
+            name: end.name.clone(),
+            kind: end.kind,
+            centre: end.centre.to_array(),
+            normal: end.normal.to_array(),
+            area_mm2: own.map(|t| triangle_area(patched.mesh.corners(t))).sum(),
+        });
+    }
+    Ok(patched)
 }
 
-/// What closes a rim: vertices inside of it, and triangles over the rim's vertices and those behind them.
-struct Disc {
+/// A cap: vertices of the rim by their place in it, then its own.
+struct Lid {
+    /// Its own vertices in mm.
     inner: Vec<DVec3>,
+    /// Counter-clockwise seen from outside.
     triangles: Vec<[usize; 3]>,
 }
 
-/// A vertex of a triangulation.
-struct Corner {
-    at: Point2<f64>,
-    number: usize,
+/// The outline of an end in its plane.
+struct Section<'a> {
+    end: &'a OpenEnd,
+    axes: [DVec3; 2],
+    /// The rim from the centre on, in mm, clockwise.
+    rim: Vec<DVec2>,
+    /// The mean length of its edges, in mm.
+    edge: f64,
 }
 
-impl HasPosition for Corner {
-    type Scalar = f64;
-
-    fn position(&self) -> Point2<f64> {
-        self.at
-    }
-}
-
-impl Disc {
-    fn of(mesh: &TriMesh, end: &OpenEnd, kind: CapKind) -> Option<Self> {
-        let corner = |v: u32| mesh.positions[v as usize].as_dvec3();
-        let count = end.rim.len();
-        if kind == CapKind::Fan {
-            // The rim runs clockwise seen from outside.
-            let triangles = (0..count).map(|i| [(i + 1) % count, i, count]).collect();
-            return Some(Self { inner: vec![end.centre], triangles });
-        }
-        let (along, across) = end.normal.any_orthonormal_pair();
-        let flat = |p: DVec3| DVec2::new((p - end.centre).dot(along), (p - end.centre).dot(across));
-        let rim: Vec<DVec2> = end.rim.iter().map(|&v| flat(corner(v))).collect();
-        let mut inner = grid(&rim, end.mean_edge(mesh))?;
-        let mut triangles = triangulated(&rim, &inner)?;
-        for _ in 0..ROUNDS {
-            relax(&rim, &mut inner, &triangles);
-            triangles = triangulated(&rim, &inner)?;
-        }
-        let place = |p: DVec2| end.centre + along * p.x + across * p.y;
-        let raised = |p: DVec2| {
-            let part = if kind == CapKind::Smooth { p.length() / reach(&rim, p) } else { 0.0 };
-            if kind == CapKind::Planar {
-                return place(p);
-            }
-            let (sine, cosine) = (libm::sin(part * FRAC_PI_2), libm::cos(part * FRAC_PI_2));
-            let out = if part > 0.0 { p * (sine / part) } else { p };
-            place(out) + end.normal * (end.radius_mm() * cosine)
+impl<'a> Section<'a> {
+    fn new(mesh: &TriMesh, end: &'a OpenEnd) -> Self {
+        let (x, y) = end.normal.any_orthonormal_pair();
+        let flat = |&v: &u32| {
+            let p = mesh.positions[v as usize].as_dvec3() - end.centre;
+            DVec2::new(p.dot(x), p.dot(y))
         };
-        Some(Self { inner: inner.into_iter().map(raised).collect(), triangles })
+        Self { end, axes: [x, y], rim: end.rim.iter().map(flat).collect(), edge: end.mean_edge(mesh) }
     }
-}
 
-/// The distance from the middle to the rim in the direction of `p`; that of `p` where the rim is nearer.
-fn reach(rim: &[DVec2], p: DVec2) -> f64 {
-    let Some(way) = p.try_normalize() else { return 1.0 };
-    let hit = |(a, b): (DVec2, DVec2)| {
-        let side = b - a;
-        let turn = way.perp_dot(side);
-        let (along, part) = (a.perp_dot(side) / turn, a.perp_dot(way) / turn);
-        (along > 0.0 && (0.0..=1.0).contains(&part)).then_some(along)
-    };
-    edges(rim).filter_map(hit).fold(p.length(), f64::max)
-}
-
-fn edges(rim: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
-    rim.iter().copied().zip(rim.iter().copied().cycle().skip(1))
-}
-
-/// Points of a hexagonal grid of edges `edge` in the rim; `None` where there are too many.
-fn grid(rim: &[DVec2], edge: f64) -> Option<Vec<DVec2>> {
-    let low = rim.iter().copied().reduce(DVec2::min)?;
-    let high = rim.iter().copied().reduce(DVec2::max)?;
-    let (rows, columns) = ((high.y - low.y) / (edge * HEIGHT), (high.x - low.x) / edge);
-    if edge.is_nan() || edge <= 0.0 || rows * columns > MOST {
-        return None;
+    fn sides(&self) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
+        self.rim.iter().copied().zip(self.rim.iter().copied().cycle().skip(1))
     }
-    let mut points = Vec::new();
-    for row in 0..=rows as usize {
-        for column in 0..=columns as usize {
-            let shift = if row % 2 == 0 { 0.25 } else { 0.75 };
-            let at = low + DVec2::new((column as f64 + shift) * edge, (row as f64 + 0.5) * edge * HEIGHT);
-            if is_inside(rim, at) && edges(rim).all(|(a, b)| distance(at, a, b) > CLEAR * edge) {
-                points.push(at);
+
+    fn place(&self, p: DVec2) -> DVec3 {
+        self.end.centre + self.axes[0] * p.x + self.axes[1] * p.y
+    }
+
+    /// Whether the rim is seen whole from its middle.
+    fn is_star(&self) -> bool {
+        self.sides().all(|(p, q)| q.perp_dot(p) > 0.0)
+    }
+
+    fn fan(&self) -> Result<Lid, CapError> {
+        if !self.is_star() {
+            return Err(CapError::Folded { name: self.end.name.clone() });
+        }
+        let count = self.rim.len();
+        let triangles = (0..count).map(|i| [(i + 1) % count, i, count]).collect();
+        Ok(Lid { inner: vec![self.end.centre], triangles })
+    }
+
+    fn planar(&self) -> Result<Lid, CapError> {
+        let mut inner = self.grid()?;
+        let mut triangles = self.triangulated(&inner)?;
+        for _ in 0..SMOOTHINGS {
+            let moved = self.smoothed(&inner, &triangles);
+            if moved.iter().any(|&p| !self.has(p, 0.0)) {
+                break;
+            }
+            inner = moved;
+            triangles = self.triangulated(&inner)?;
+        }
+        Ok(Lid { inner: inner.into_iter().map(|p| self.place(p)).collect(), triangles })
+    }
+
+    /// Whether a point lies in the outline and at least so far from it, in mm.
+    fn has(&self, p: DVec2, distance: f64) -> bool {
+        let mut is_inside = false;
+        for (a, b) in self.sides() {
+            if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y) {
+                is_inside = !is_inside;
+            }
+            let along = b - a;
+            let part = ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            if p.distance(a + along * part) < distance {
+                return false;
             }
         }
+        is_inside
     }
-    Some(points)
-}
 
-/// The height of an equilateral triangle.
-const HEIGHT: f64 = 0.866_025_403_784_438_6;
+    /// The points of a hexagonal grid about the middle that lie well in the outline.
+    fn grid(&self) -> Result<Vec<DVec2>, CapError> {
+        let (low, high) =
+            self.rim.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+        let row_height = self.edge * 0.75f64.sqrt();
+        let [columns, rows] = [(high.x - low.x) / self.edge, (high.y - low.y) / row_height];
+        if !(0.0..=MOST_VERTICES).contains(&(columns * rows)) {
+            return Err(CapError::TooFine { name: self.end.name.clone() });
+        }
+        let mut points = Vec::new();
+        for row in (low.y / row_height).floor() as i64..=(high.y / row_height).ceil() as i64 {
+            let shift = if row.rem_euclid(2) == 1 { 0.5 } else { 0.0 };
+            for column in (low.x / self.edge).floor() as i64 - 1..=(high.x / self.edge).ceil() as i64 {
+                let p = DVec2::new((column as f64 + shift) * self.edge, row as f64 * row_height);
+                if self.has(p, FROM_RIM * self.edge) {
+                    points.push(p);
+                }
+            }
+        }
+        Ok(points)
+    }
 
-/// Whether a point lies in a closed polygon, by the edges that a ray to the right passes.
-fn is_inside(rim: &[DVec2], p: DVec2) -> bool {
-    let passes =
-        |(a, b): (DVec2, DVec2)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
-    edges(rim).filter(|&edge| passes(edge)).count() % 2 == 1
-}
-
-/// The distance of a point from a side.
-fn distance(p: DVec2, a: DVec2, b: DVec2) -> f64 {
-    let side = b - a;
-    let part = ((p - a).dot(side) / side.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    p.distance(a + side * part)
-}
-
-/// The triangles over rim and inner points, counter-clockwise; `None` where the rim crosses itself.
-fn triangulated(rim: &[DVec2], inner: &[DVec2]) -> Option<Vec<[usize; 3]>> {
-    let mut triangulation = ConstrainedDelaunayTriangulation::<Corner>::new();
-    let mut handles = Vec::with_capacity(rim.len());
-    for (number, p) in rim.iter().chain(inner).enumerate() {
-        let handle = triangulation.insert(Corner { at: Point2::new(p.x, p.y), number }).ok()?;
-        if number < rim.len() {
+    /// The constrained Delaunay triangles in the outline over its vertices and the `inner` ones.
+    fn triangulated(&self, inner: &[DVec2]) -> Result<Vec<[usize; 3]>, CapError> {
+        let crossing = || CapError::SelfCrossing { name: self.end.name.clone() };
+        let mut triangulation = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+        // Numbers next to 0 are refused there.
+        let flat = |x: f64| if x.abs() < 1e-30 { 0.0 } else { x };
+        let mut handles = Vec::with_capacity(self.rim.len() + inner.len());
+        for (number, p) in self.rim.iter().chain(inner).enumerate() {
+            let handle = triangulation.insert(Point2::new(flat(p.x), flat(p.y))).map_err(|_| crossing())?;
+            // A point that is there already.
+            if handle.index() != number {
+                return Err(crossing());
+            }
             handles.push(handle);
         }
-    }
-    // Two points at one place are one vertex.
-    if triangulation.num_vertices() != rim.len() + inner.len() {
-        return None;
-    }
-    for (i, &from) in handles.iter().enumerate() {
-        let to = handles[(i + 1) % handles.len()];
-        if !triangulation.can_add_constraint(from, to) {
-            return None;
+        let rim = &handles[..self.rim.len()];
+        for (&from, &to) in rim.iter().zip(rim.iter().cycle().skip(1)) {
+            if !triangulation.can_add_constraint(from, to) {
+                return Err(crossing());
+            }
+            triangulation.add_constraint(from, to);
         }
-        triangulation.add_constraint(from, to);
+        if triangulation.num_constraints() != rim.len() {
+            return Err(crossing());
+        }
+        let point = |v: usize| self.rim.get(v).or_else(|| inner.get(v - self.rim.len())).copied().unwrap_or_default();
+        let triangles = triangulation.inner_faces().map(|face| face.vertices().map(|vertex| vertex.fix().index()));
+        let mut triangles: Vec<[usize; 3]> =
+            triangles.filter(|t| self.has(t.iter().map(|&v| point(v)).sum::<DVec2>() / 3.0, 0.0)).collect();
+        // A triangle runs along every edge of the rim, against it.
+        let mut sides: Vec<(usize, usize)> = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+        sides.sort_unstable();
+        let count = self.rim.len();
+        if (0..count).any(|i| sides.binary_search(&((i + 1) % count, i)).is_err()) {
+            return Err(crossing());
+        }
+        triangles.sort_unstable();
+        Ok(triangles)
     }
-    let faces = triangulation.inner_faces().filter_map(|face| {
-        let corners = face.vertices();
-        let middle = corners.iter().fold(DVec2::ZERO, |sum, v| sum + DVec2::new(v.position().x, v.position().y)) / 3.0;
-        is_inside(rim, middle).then(|| corners.map(|v| v.data().number))
-    });
-    Some(faces.collect())
-}
 
-/// Each inner point goes to the mean of its neighbours.
-fn relax(rim: &[DVec2], inner: &mut [DVec2], triangles: &[[usize; 3]]) {
-    let mut sums = vec![(DVec2::ZERO, 0.0); inner.len()];
-    let at = |v: usize| rim.get(v).copied().unwrap_or_else(|| inner[v - rim.len()]);
-    for corners in triangles {
-        for (i, &v) in corners.iter().enumerate() {
-            if let Some(sum) = v.checked_sub(rim.len()).and_then(|v| sums.get_mut(v)) {
-                sum.0 += at(corners[(i + 1) % 3]) + at(corners[(i + 2) % 3]);
-                sum.1 += 2.0;
+    /// The inner vertices, each at the mean of its neighbours.
+    fn smoothed(&self, inner: &[DVec2], triangles: &[[usize; 3]]) -> Vec<DVec2> {
+        let count = self.rim.len();
+        let point = |v: usize| if v < count { self.rim[v] } else { inner[v - count] };
+        let mut sums = vec![(DVec2::ZERO, 0.0); inner.len()];
+        for &[a, b, c] in triangles {
+            for (v, next) in [(a, b), (b, c), (c, a)] {
+                // Around an inner vertex every neighbour comes next once.
+                if let Some((sum, number)) = v.checked_sub(count).and_then(|v| sums.get_mut(v)) {
+                    *sum += point(next);
+                    *number += 1.0;
+                }
             }
         }
+        let mean = |((sum, number), &p): ((DVec2, f64), &DVec2)| if number > 0.0 { sum / number } else { p };
+        sums.into_iter().zip(inner).map(mean).collect()
     }
-    for (p, (sum, count)) in inner.iter_mut().zip(sums) {
-        if count > 0.0 && is_inside(rim, sum / count) {
-            *p = sum / count;
+
+    /// Where the half-line from the middle through `p` meets the rim: the edge, and how far along it.
+    fn rim_beyond(&self, p: DVec2) -> Option<(usize, f64)> {
+        let meets = |(i, (a, b)): (usize, (DVec2, DVec2))| {
+            // p lies between the directions of a and b, which follow each other clockwise.
+            let (to_a, to_b) = (p.perp_dot(a), b.perp_dot(p));
+            (to_a >= 0.0 && to_b >= 0.0 && to_a + to_b > 0.0 && p.dot(a + b) > 0.0).then(|| (i, to_a / (to_a + to_b)))
+        };
+        self.sides().enumerate().find_map(meets)
+    }
+}
+
+impl Lid {
+    /// A planar cap raised to a dome that continues a wall of these slopes.
+    fn raised(self, section: &Section, slopes: &[DVec3]) -> Result<Self, CapError> {
+        let folded = || CapError::Folded { name: section.end.name.clone() };
+        if !section.is_star() {
+            return Err(folded());
         }
+        let (count, radius) = (section.rim.len(), section.end.radius_mm());
+        let OpenEnd { centre, normal, .. } = *section.end;
+        let raise = |p: DVec3| {
+            let from_centre = p - centre;
+            let flat = DVec2::new(from_centre.dot(section.axes[0]), from_centre.dot(section.axes[1]));
+            if flat.length() < 1e-9 * radius {
+                return Ok(centre + normal * radius / 2.0);
+            }
+            let (i, part) = section.rim_beyond(flat).ok_or_else(folded)?;
+            let next = (i + 1) % count;
+            let rim = section.rim[i].lerp(section.rim[next], part);
+            let slope = slopes[i].lerp(slopes[next], part);
+            let r = (flat.length() / rim.length()).min(1.0);
+            let across = (section.place(rim) - centre) * (3.0 * r - r * r * r) / 2.0;
+            let along = normal * radius * (1.0 - r * r) / 2.0;
+            Ok(centre + across + slope * radius * r * r * (1.0 - r) + along)
+        };
+        let inner = self.inner.into_iter().map(raise).collect::<Result<_, CapError>>()?;
+        Ok(Self { inner, ..self })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::ends::open_ends;
-    use super::*;
-    use lumen_mesh::shapes::tube;
-    use lumen_mesh::{Vec3, angles, self_intersections, triangle_area, volume};
+    use std::f64::consts::PI;
 
-    const SIDES: u32 = 24;
+    use lumen_mesh::shapes::{tube, vertices_are_manifold};
+    use lumen_mesh::{Vec3, angles, self_intersections, volume};
+
+    use super::*;
+    use crate::PatchKind;
+    use crate::ends::{edges, open_ends};
+
+    const KINDS: [CapKind; 3] = [CapKind::Fan, CapKind::Planar, CapKind::Smooth];
 
     fn capped(mesh: &TriMesh, kind: CapKind) -> Patched {
-        let (ends, refused) = open_ends(mesh).unwrap();
-        assert!(refused.is_empty());
-        cap(mesh, &ends, kind).unwrap()
+        cap(mesh, &open_ends(mesh).unwrap().0, kind).unwrap()
     }
 
-    /// Checks that a surface is closed and consistent, of the Euler characteristic of a sphere; gives its volume.
-    fn closed(mesh: &TriMesh) -> f64 {
-        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-        let counts = topology.edge_counts();
-        assert_eq!((counts.boundary, counts.non_manifold, counts.flipped), (0, 0, 0));
-        assert_eq!(mesh.positions.len() + mesh.triangles.len(), counts.edges + 2);
-        assert!(self_intersections(mesh).is_empty());
-        volume(mesh, &topology)
+    fn lid(patched: &Patched, patch: u32) -> TriMesh {
+        patched.mesh.filtered(|t| patched.of_triangle[t] == patch)
     }
 
-    /// The area of a regular polygon in a circle of 2 mm.
-    fn polygon() -> f64 {
-        f64::from(SIDES) * 2.0 * libm::sin(std::f64::consts::TAU / f64::from(SIDES))
+    /// Area of the polygon of `sides` in a circle.
+    fn polygon(sides: f64, radius: f64) -> f64 {
+        sides / 2.0 * radius * radius * libm::sin(2.0 * PI / sides)
     }
 
     #[test]
-    fn flat_caps_close_a_tube_with_the_areas_of_its_polygons() {
-        let mesh = tube(SIDES, 40, 20.0, |_| 2.0);
+    fn a_capped_tube_is_a_sphere_in_topology_and_has_its_patches() {
+        let mesh = tube(24, 76, 40.0, |z| 2.0 + z / 100.0);
+        for kind in KINDS {
+            let patched = capped(&mesh, kind);
+            assert_eq!(patched, capped(&mesh, kind));
+            let topology = Topology::new(patched.mesh.positions.len(), &patched.mesh.triangles);
+            let counts = topology.edge_counts();
+            assert_eq!((counts.boundary, counts.non_manifold, counts.flipped), (0, 0, 0));
+            assert!(vertices_are_manifold(&patched.mesh, &topology));
+            assert!(self_intersections(&patched.mesh).is_empty());
+            let euler = patched.mesh.positions.len() as i64 - counts.edges as i64 + patched.mesh.triangles.len() as i64;
+            assert_eq!(euler, 2);
+            assert_eq!(patched.of_triangle.len(), patched.mesh.triangles.len());
+            assert!(patched.of_triangle[..mesh.triangles.len()].iter().all(|&patch| patch == 0));
+            assert_eq!(patched.mesh.positions[..mesh.positions.len()], mesh.positions[..]);
+            let ids: Vec<(u32, &str, PatchKind)> =
+                patched.patches.iter().map(|patch| (patch.id, patch.name.as_str(), patch.kind)).collect();
+            let expected =
+                [(1, "wall", PatchKind::Wall), (2, "outlet_1", PatchKind::Outlet), (3, "inlet", PatchKind::Inlet)];
+            assert_eq!(ids, expected);
+        }
+    }
+
+    #[test]
+    fn flat_caps_have_the_area_of_the_polygon_and_the_tube_about_the_volume_of_a_prism() {
+        let mesh = tube(24, 76, 40.0, |_| 2.0);
         for kind in [CapKind::Fan, CapKind::Planar] {
-            let surface = capped(&mesh, kind);
-            // Between rings that are turned by half a side the section lies between the polygon and the circle.
-            let whole = closed(&surface.mesh);
-            assert!(whole > polygon() * 20.0 && whole < std::f64::consts::PI * 80.0, "{kind:?}: {whole}");
-            assert_eq!(surface.patches.len(), 3);
-            for (number, patch) in surface.patches.iter().enumerate().skip(1) {
-                let of = |t: &usize| surface.of_triangle[*t] as usize == number;
-                let triangles = (0..surface.mesh.triangles.len()).filter(of);
-                let area: f64 = triangles.clone().map(|t| triangle_area(surface.mesh.corners(t))).sum();
-                assert!((area / polygon() - 1.0).abs() < 1e-5 && (patch.area_mm2 / polygon() - 1.0).abs() < 1e-5);
-                for t in triangles {
-                    let [a, b, c] = surface.mesh.corners(t).map(Vec3::as_dvec3);
-                    let normal = (b - a).cross(c - a).normalize();
-                    assert!(normal.dot(DVec3::from_array(patch.normal)) > 1.0 - 1e-6, "out of the vessel");
-                }
+            let patched = capped(&mesh, kind);
+            for patch in &patched.patches[1..] {
+                assert!((patch.area_mm2 / polygon(24.0, 2.0) - 1.0).abs() < 1e-6, "{patch:?}");
+                assert!(patch.normal[2].abs() > 1.0 - 1e-9 && patch.centre[2] * patch.normal[2] >= 0.0);
+            }
+            let topology = Topology::new(patched.mesh.positions.len(), &patched.mesh.triangles);
+            let volume = volume(&patched.mesh, &topology);
+            // Rings that are turned by half a side make antiprisms, which differ from prisms by less than a percent.
+            assert!((volume / (polygon(24.0, 2.0) * 40.0) - 1.0).abs() < 1e-2, "{volume}");
+        }
+    }
+
+    #[test]
+    fn a_prism_has_the_volume_of_its_polygon_times_its_length() {
+        // The rings are not turned against each other.
+        let rings = 20u32;
+        let at = |ring: u32, side: u32| ring * 24 + side % 24;
+        let position = |i: u32| {
+            let (sin, cos) = libm::sincos(f64::from(i % 24) / 24.0 * 2.0 * PI);
+            Vec3::new((2.0 * cos) as f32, (2.0 * sin) as f32, (i / 24) as f32 * 0.5)
+        };
+        let mut mesh = TriMesh { positions: (0..24 * (rings + 1)).map(position).collect(), triangles: Vec::new() };
+        for (ring, side) in (0..rings).flat_map(|ring| (0..24).map(move |side| (ring, side))) {
+            let [a, b, c, d] = [at(ring, side), at(ring, side + 1), at(ring + 1, side), at(ring + 1, side + 1)];
+            mesh.triangles.extend([[a, b, c], [b, d, c]]);
+        }
+        for kind in [CapKind::Fan, CapKind::Planar] {
+            let patched = capped(&mesh, kind);
+            let topology = Topology::new(patched.mesh.positions.len(), &patched.mesh.triangles);
+            assert!((volume(&patched.mesh, &topology) / (polygon(24.0, 2.0) * 10.0) - 1.0).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn a_planar_cap_has_no_sharp_triangles() {
+        for sides in [8, 24, 60] {
+            let mesh = tube(sides, 40, 40.0, |_| 2.0);
+            let patched = capped(&mesh, CapKind::Planar);
+            for patch in [1, 2] {
+                let least = angles(&lid(&patched, patch)).unwrap().min_deg;
+                assert!(least >= 25.0, "{least} with {sides} sides");
             }
         }
     }
 
     #[test]
-    fn a_planar_cap_has_no_small_angles() {
-        let mesh = tube(SIDES, 40, 20.0, |_| 2.0);
-        let surface = capped(&mesh, CapKind::Planar);
-        let caps = surface.mesh.filtered(|t| surface.of_triangle[t] > 0);
-        assert!(angles(&caps).unwrap().min_deg > 25.0, "{:?}", angles(&caps));
-    }
-
-    #[test]
-    fn a_dome_goes_on_from_the_wall_and_has_the_volume_of_a_half_ball() {
-        let mesh = tube(96, 160, 20.0, |_| 2.0);
-        let volumes = [CapKind::Planar, CapKind::Smooth].map(|kind| closed(&capped(&mesh, kind).mesh));
-        let ball = 4.0 / 3.0 * std::f64::consts::PI * 8.0;
-        assert!(((volumes[1] - volumes[0]) / ball - 1.0).abs() < 0.02, "{volumes:?}");
-    }
-
-    #[test]
-    fn a_rim_that_crosses_itself_is_refused() {
-        // A strip whose one rim is bent to an eight in its plane.
-        let mut mesh = tube(24, 2, 10.0, |_| 2.0);
-        for (i, p) in mesh.positions.iter_mut().take(24).enumerate() {
-            let angle = i as f32 / 24.0 * std::f32::consts::TAU;
-            (p.x, p.y) = (2.0 * angle.sin() + 0.1 * angle.cos(), (2.0 * angle).sin() + 0.3);
-        }
+    fn a_smooth_cap_is_half_a_radius_high_and_continues_the_wall() {
+        let mesh = tube(48, 80, 20.0, |_| 2.0);
+        let patched = capped(&mesh, CapKind::Smooth);
+        let top = patched.mesh.positions.iter().fold(f32::MIN, |top, p| top.max(p.z));
+        assert!((top - 21.0).abs() < 0.02, "{top}");
+        let bottom = patched.mesh.positions.iter().fold(f32::MAX, |bottom, p| bottom.min(p.z));
+        assert!((bottom + 1.0).abs() < 0.02, "{bottom}");
+        let topology = Topology::new(patched.mesh.positions.len(), &patched.mesh.triangles);
         let (ends, _) = open_ends(&mesh).unwrap();
-        let refused = ends.iter().any(|end| cap(&mesh, std::slice::from_ref(end), CapKind::Planar).is_err());
-        assert!(refused || ends.len() < 2, "{ends:?}");
+        for (a, b) in ends.iter().flat_map(|end| edges(&end.rim)) {
+            let normals: Vec<DVec3> = topology
+                .triangles_on(&patched.mesh.triangles, a, b)
+                .map(|t| patched.mesh.corners(t as usize).map(Vec3::as_dvec3))
+                .map(|[a, b, c]| (b - a).cross(c - a).normalize())
+                .collect();
+            // A flat lid turns by 90 degrees; the dome by what its first triangles take of its curve.
+            assert!(normals[0].dot(normals[1]) > libm::cos(20f64.to_radians()), "{}", normals[0].dot(normals[1]));
+        }
+        let area = patched.patches[1].area_mm2;
+        assert!(area > PI * 4.0 * 1.1 && area < PI * 8.0, "between a disc and a hemisphere: {area}");
     }
 
     #[test]
-    fn the_same_surface_gives_the_same_cap() {
-        let mesh = tube(31, 20, 20.0, |z| 2.0 + 0.01 * z);
-        assert!(capped(&mesh, CapKind::Planar) == capped(&mesh, CapKind::Planar));
+    fn what_cannot_be_capped_is_refused() {
+        let mesh = tube(24, 20, 20.0, |_| 2.0);
+        let (ends, _) = open_ends(&mesh).unwrap();
+        assert_eq!(cap(&mesh, &[], CapKind::Fan), Err(CapError::NoEnds));
+        assert_eq!(cap(&mesh, &ends[..1], CapKind::Fan), Err(CapError::Holes { holes: 1 }));
+        let twice = [ends[0].clone(), ends[0].clone()];
+        assert!(matches!(cap(&mesh, &twice, CapKind::Fan), Err(CapError::Shared { .. })));
+        let mut broken = mesh.clone();
+        broken.positions[100].x = f32::NAN;
+        assert!(matches!(cap(&broken, &ends, CapKind::Planar), Err(CapError::Surface(_))));
+        let mut bent = mesh.clone();
+        bent.positions[3].z -= 0.5;
+        assert!(matches!(cap(&bent, &ends, CapKind::Planar), Err(CapError::Rim(RimError::NotPlanar { .. }))));
+        let short = [OpenEnd { rim: vec![0, 1, 2], ..ends[0].clone() }, ends[1].clone()];
+        assert!(matches!(cap(&mesh, &short, CapKind::Planar), Err(CapError::Rim(RimError::TooFew { .. }))));
+        // Two vertices of the rim change places.
+        let mut crossed = mesh.clone();
+        crossed.positions.swap(4, 5);
+        assert!(matches!(cap(&crossed, &ends, CapKind::Planar), Err(CapError::SelfCrossing { .. })));
+        assert!(matches!(cap(&crossed, &ends, CapKind::Fan), Err(CapError::Folded { .. })));
+        let mut same = mesh.clone();
+        same.positions[4] = same.positions[5];
+        assert!(matches!(cap(&same, &ends, CapKind::Planar), Err(CapError::SelfCrossing { .. })));
     }
 }

@@ -93,9 +93,9 @@ pub enum ClipError {
 }
 
 impl ClipError {
-    /// The place of the plane that is the reason, where it is one of them.
+    /// The place of the plane that cannot be cut at, where it is that of one plane.
     pub fn end(&self) -> Option<usize> {
-        match *self {
+        match self {
             Self::Plane { end }
             | Self::NoOutline { end }
             | Self::Open { end }
@@ -103,7 +103,7 @@ impl ClipError {
             | Self::TooCoarse { end }
             | Self::NotSeparating { end }
             | Self::OtherEnd { end, .. }
-            | Self::MostOfSurface { end, .. } => Some(end),
+            | Self::MostOfSurface { end, .. } => Some(*end),
             Self::Surface(_) | Self::Rim(_) => None,
         }
     }
@@ -532,6 +532,7 @@ mod tests {
             let mesh = tube(48, 80, 40.0, |_| 2.0);
             let clipped = clip(&mesh, &[plane(DVec3::new(0.3, 0.1, z), DVec3::Z, 2.0)]).unwrap();
             assert_sound(&clipped.mesh, 2);
+            assert!(self_intersections(&clipped.mesh).is_empty());
             let [end] = &clipped.ends[..] else { panic!("one end") };
             assert!(end.rim.iter().all(|&v| (f64::from(clipped.mesh.positions[v as usize].z) - z).abs() < 1e-5));
             // Between rings the wall lies inside of the circle by no more than the sagitta of a chord.

@@ -159,7 +159,7 @@ impl Tube {
         let length = length.mm(radius).filter(|&mm| mm > 0.0).ok_or_else(|| ExtendError::Length { name: name() })?;
         let edge_mm = end.mean_edge(mesh);
         let rings = (length / edge_mm).round().max(1.0);
-        if !(rings <= MOST_RINGS) {
+        if !(1.0..=MOST_RINGS).contains(&rings) {
             return Err(ExtendError::TooLong { name: name(), length_mm: length, edge_mm });
         }
         let OpenEnd { centre, normal, .. } = *end;
@@ -268,7 +268,7 @@ pub(crate) fn slopes(mesh: &TriMesh, topology: &Topology, end: &OpenEnd) -> Vec<
 #[cfg(test)]
 mod tests {
     use lumen_mesh::shapes::{joined, tube, vertices_are_manifold};
-    use lumen_mesh::{Vec3, boundary_loops, volume};
+    use lumen_mesh::{Vec3, volume};
 
     use super::*;
     use crate::ends::open_ends;
@@ -393,7 +393,5 @@ mod tests {
         let mut broken = mesh.clone();
         broken.positions[0].x = f32::NAN;
         assert!(matches!(extend(&broken, &ends, &both(Length::Mm(1.0))), Err(ExtendError::Surface(_))));
-        // A section with an arm that leads around its own middle.
-        assert_eq!(boundary_loops(&Topology::new(mesh.positions.len(), &mesh.triangles)).len(), 2);
     }
 }

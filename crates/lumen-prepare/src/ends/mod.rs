@@ -301,7 +301,7 @@ impl VesselEnd<'_> {
             }
             let step = (STEP * self.at(from_end).radius).max(self.branch.length_mm() / STEPS as f64);
             // Also what is no number ends the search.
-            if !(from_end + step <= room_mm) {
+            if !(0.0..=room_mm).contains(&(from_end + step)) {
                 break;
             }
             from_end += step;
