@@ -78,6 +78,8 @@ def ftetwild(path):
 
 
 def child(fill, path, pipe):
+    # fTetWild leaves a file where it runs.
+    os.chdir(path.parent)
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
     try:
@@ -134,7 +136,8 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             folder = Path(folder)
             begun = time.time()
-            done = subprocess.run([PROGRAM, "prepare", source, *OPTIONS, "-o", folder, "--format", "stl,msh"], capture_output=True, text=True)
+            command = [PROGRAM, "prepare", source, *OPTIONS, "-o", folder, "--format", "stl,msh"]
+            done = subprocess.run(command, capture_output=True, text=True)
             seconds = time.time() - begun
             name = source if isinstance(source, str) else source.name
             if done.returncode:

@@ -93,10 +93,11 @@ impl Prepare {
     /// Prepares the surface and writes it.
     pub(super) fn run(&self) -> Result<()> {
         places::check([Path::new(&self.file)], [("the folder".to_owned(), &*self.output)])?;
+        let plan = self.plan()?;
         interrupt::listen()?;
         let Imported { mesh, .. } = source::read_with(&self.file, self.unit, &Default::default())?;
         let before = mesh.triangles.len();
-        let found = prepare(mesh, &self.plan()?).map_err(|error| anyhow!("the surface cannot be prepared: {error}"))?;
+        let found = prepare(&mesh, &plan).map_err(|error| anyhow!("the surface cannot be prepared: {error}"))?;
         interrupt::check()?;
         let stem = Path::new(&self.file).file_stem().map_or("surface".into(), |stem| stem.to_string_lossy());
         let stem = stem.replace(':', "-");

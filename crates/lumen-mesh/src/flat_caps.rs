@@ -4,7 +4,7 @@
 //! behind which the vessel goes on: cut by planes half a radius and a whole radius further in, what is joined to the rim is
 //! as wide as the cap; and the rim is round. So neither the steps and ends of a voxel surface nor the faces of a box are caps. Caps that touch are none.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::task::{Yielder, at_once, blocks};
 use super::{Topology, TriMesh, cut, parallel};
@@ -100,16 +100,15 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     async fn new(mesh: &'a TriMesh, topology: &'a Topology, yielder: &Yielder) -> Self {
         let normal = |t: usize| {
-            let [a, b, c] = mesh.corners(t).map(|p| p.as_dvec3());
+            let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
             (b - a).cross(c - a).normalize_or_zero()
         };
         let count = mesh.triangles.len();
         let mut normals = Vec::with_capacity(count);
         for block in blocks(count, TRIANGLES) {
             let first = block.start;
-            let found = parallel::map_ranges(block.len(), PIECE, |range| {
-                range.map(|i| normal(first + i)).collect::<Vec<_>>()
-            });
+            let found =
+                parallel::map_ranges(block.len(), PIECE, |range| range.map(|i| normal(first + i)).collect::<Vec<_>>());
             normals.extend(found.into_iter().flatten());
             yielder.rest(0.3 * normals.len() as f32 / count as f32).await;
         }
@@ -283,7 +282,6 @@ fn rim(mut edges: Vec<[u32; 2]>) -> Option<Vec<u32>> {
 mod tests {
     use super::*;
     use crate::shapes::{capped, icosphere, isosurface, tube};
-    use glam::Vec3;
 
     fn found(mesh: &TriMesh) -> Vec<FlatCap> {
         flat_caps(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles))

@@ -13,9 +13,10 @@ use super::extend::{ExtendError, Extended, extend};
 use super::remesh::{Deviation, Quality, RemeshError, Remeshed, Sizing, remesh};
 use super::uncross::{UncrossError, Uncrossed, uncross};
 use super::{Patch, PatchKind, Patched};
+use lumen_mesh::mending::fill::fill;
 use lumen_mesh::mending::split::split;
 use lumen_mesh::task::{Yielder, at_once};
-use lumen_mesh::{Topology, TriMesh, compacted, components, flat_caps, triangle_area};
+use lumen_mesh::{Topology, TriMesh, Vec3, boundary_loops, compacted, components, flat_caps, triangle_area};
 use lumen_vessel::width::widths;
 use lumen_vessel::{End, Tree, TreeError};
 
@@ -62,10 +63,10 @@ pub enum Note {
     #[error("an end is not cut: {0}")]
     NotCut(#[from] ClipError),
     /// A loop is no end.
-    #[error("an opening is no end: {0}")]
+    #[error("an opening is closed as a part of the wall: {0}")]
     NoEnd(#[from] RimError),
     /// An extension is shorter.
-    #[error("the extension of {name} is {mm:.1} mm long: farther on it would run into something")]
+    #[error("the extension of {name} is only {mm:.1} mm long: farther on it would run into something")]
     Shortened {
         /// The end.
         name: String,
@@ -116,17 +117,17 @@ pub struct Prepared {
 ///
 /// # Errors
 /// [`PrepareError`]. A single end that cannot be cut or extended is a [`Note`].
-pub fn prepare(mesh: TriMesh, plan: &Plan) -> Result<Prepared, PrepareError> {
-    check_surface(&mesh)?;
+pub fn prepare(mesh: &TriMesh, plan: &Plan) -> Result<Prepared, PrepareError> {
+    check_surface(mesh)?;
     let mut notes = Vec::new();
-    let (mesh, others) = largest_piece(mesh);
+    // Edges of more than two triangles are no place to part surfaces at, and no mesher takes them.
+    let (mesh, others) = largest_piece(split(mesh).mesh);
     if others > 0 {
         notes.push(Note::LeftOut { others });
     }
     let (mut mesh, uncrossed) = if plan.uncross {
-        // Edges of more than two triangles are no place to part surfaces at.
-        let mut found = uncross(&split(&mesh).mesh)?;
-        (std::mem::take(&mut found.mesh), Some(found))
+        let mut found = uncross(&mesh)?;
+        (largest_piece(std::mem::take(&mut found.mesh)).0, Some(found))
     } else {
         (mesh, None)
     };
@@ -135,9 +136,7 @@ pub fn prepare(mesh: TriMesh, plan: &Plan) -> Result<Prepared, PrepareError> {
     }
     let mut surface = if plan.extend.is_some() || plan.cap.is_some() {
         // What is flat and closed is an end like those that are open.
-        let mesh = opened(mesh);
-        let (ends, refused) = open_ends(&mesh)?;
-        notes.extend(refused.into_iter().map(Note::NoEnd));
+        let (mesh, ends) = without_holes(&largest_piece(opened(&mesh)).0, &mut notes)?;
         let (mesh, ends) = match plan.extend.filter(|_| !ends.is_empty()) {
             Some(length) => extended(mesh, ends, length, &mut notes),
             None => (mesh, ends),
@@ -182,23 +181,31 @@ fn clipped(mesh: TriMesh, at: ClipAt, notes: &mut Vec<Note>) -> Result<TriMesh, 
             planes
         }
     };
-    let mesh = cut_at(mesh, planes, notes);
+    let mesh = cut_at(mesh, &planes, notes);
     // An end that is too near a fork for such a plane is cut just inside of its rim, where that is uneven.
     let planes = planes_of_uneven_openings(&mesh)?;
-    Ok(cut_at(mesh, planes, notes))
+    Ok(cut_at(mesh, &planes, notes))
 }
 
 /// The surface cut at those planes that cut it.
-fn cut_at(mesh: TriMesh, mut planes: Vec<EndPlane>, notes: &mut Vec<Note>) -> TriMesh {
-    while !planes.is_empty() {
-        let error = match clip(&mesh, &planes) {
+fn cut_at(mut mesh: TriMesh, planes: &[EndPlane], notes: &mut Vec<Note>) -> TriMesh {
+    let mut rest = planes;
+    while !rest.is_empty() {
+        let error = match clip(&mesh, rest) {
             Ok(Clipped { mesh, .. }) => return mesh,
             Err(error) => error,
         };
-        let end = error.end().filter(|&end| end < planes.len());
+        let failed = error.end().filter(|&end| end < rest.len());
         notes.push(error.into());
-        let Some(end) = end else { break };
-        planes.remove(end);
+        let Some(failed) = failed else { break };
+        // Those before it cut: they are made, and the others are tried without it.
+        if failed > 0 {
+            match clip(&mesh, &rest[..failed]) {
+                Ok(Clipped { mesh: cut, .. }) => mesh = cut,
+                Err(error) => notes.push(error.into()),
+            }
+        }
+        rest = &rest[failed + 1..];
     }
     mesh
 }
@@ -213,8 +220,8 @@ fn largest_piece(mesh: TriMesh) -> (TriMesh, usize) {
 }
 
 /// The surface without its flat caps.
-fn opened(mesh: TriMesh) -> TriMesh {
-    let caps = flat_caps(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+fn opened(mesh: &TriMesh) -> TriMesh {
+    let caps = flat_caps(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
     let mut is_cap = vec![false; mesh.triangles.len()];
     caps.iter().flat_map(|cap| &cap.triangles).for_each(|&t| is_cap[t as usize] = true);
     let walls = mesh.triangles.iter().zip(&is_cap).filter(|(_, is_cap)| !**is_cap).map(|(&t, _)| t).collect();
@@ -223,27 +230,58 @@ fn opened(mesh: TriMesh) -> TriMesh {
 
 /// The surface and its ends with extensions, as long as there is room for.
 fn extended(mesh: TriMesh, ends: Vec<OpenEnd>, length: Length, notes: &mut Vec<Note>) -> (TriMesh, Vec<OpenEnd>) {
-    let mut lengths = vec![length; ends.len()];
-    // Each time at least one is shorter.
-    for _ in 0..=ends.len() {
-        match extend(&mesh, &ends, &lengths) {
-            Ok(Extended { mesh, ends, .. }) => return (mesh, ends),
-            Err(ExtendError::Collides { free }) => {
-                for (name, mm) in free {
-                    let Some(i) = ends.iter().position(|end| end.name == name) else { continue };
-                    let mm = OF_FREE * mm;
-                    lengths[i] = Length::Mm(mm);
-                    notes.retain(|note| !matches!(note, Note::Shortened { name: known, .. } if *known == name));
-                    notes.push(Note::Shortened { name, mm });
-                }
+    let mut lengths = vec![Some(length); ends.len()];
+    // Each time at least one is shorter, or left as it is.
+    for _ in 0..=2 * ends.len() {
+        let (with, of): (Vec<OpenEnd>, Vec<Length>) =
+            ends.iter().zip(&lengths).filter_map(|(end, length)| Some((end.clone(), (*length)?))).unzip();
+        if with.is_empty() {
+            break;
+        }
+        let free = match extend(&mesh, &with, &of) {
+            Ok(Extended { mesh, ends: mut done, .. }) => {
+                let without = ends.iter().zip(&lengths).filter(|(_, length)| length.is_none());
+                done.extend(without.map(|(end, _)| end.clone()));
+                done.sort_by_key(|end| ends.iter().position(|before| before.name == end.name));
+                return (mesh, done);
             }
+            Err(ExtendError::Collides { free }) => free,
             Err(error) => {
                 notes.push(error.into());
                 break;
             }
+        };
+        for (name, mm) in free {
+            let Some(i) = ends.iter().position(|end| end.name == name) else { continue };
+            // Less than a tenth of the radius is none.
+            let mm = if OF_FREE * mm > 0.1 * ends[i].radius_mm() { OF_FREE * mm } else { 0.0 };
+            lengths[i] = (mm > 0.0).then_some(Length::Mm(mm));
+            notes.retain(|note| !matches!(note, Note::Shortened { name: known, .. } if *known == name));
+            notes.push(Note::Shortened { name, mm });
         }
     }
     (mesh, ends)
+}
+
+/// Fills the holes of the wall; openings that are neither holes nor among `ends` are closed by a fan.
+fn without_holes(mesh: &TriMesh, notes: &mut Vec<Note>) -> Result<(TriMesh, Vec<OpenEnd>), PrepareError> {
+    let mut mesh = fill(mesh, f64::INFINITY).mesh;
+    let (ends, refused) = open_ends(&mesh)?;
+    if refused.is_empty() {
+        return Ok((mesh, ends));
+    }
+    notes.extend(refused.into_iter().map(Note::NoEnd));
+    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    for rim in boundary_loops(&topology) {
+        if ends.iter().any(|end| end.rim.iter().all(|v| rim.contains(v))) {
+            continue;
+        }
+        let middle = rim.iter().map(|&v| mesh.positions[v as usize]).sum::<Vec3>() / rim.len() as f32;
+        let apex = mesh.positions.len() as u32;
+        mesh.positions.push(middle);
+        mesh.triangles.extend((0..rim.len()).map(|i| [rim[(i + 1) % rim.len()], rim[i], apex]));
+    }
+    Ok((mesh, ends))
 }
 
 /// The surface with a patch for each flat cap.

@@ -43,7 +43,7 @@ impl CapAreas {
         let unit = f64::from(rings.unit);
         let in_unit = |cap: &FlatCap| Cap {
             normal: cap.normal.as_vec3a(),
-            middle: rings.from_mm(cap.centre.as_vec3()),
+            middle: rings.in_unit(cap.centre.as_vec3()),
             change: 0.0,
             most: SPENT * (cap.area_mm2 / (unit * unit)) as f32,
         };

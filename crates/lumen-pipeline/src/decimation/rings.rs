@@ -129,7 +129,7 @@ impl Rings {
     }
 
     /// A place in mm as a position of this surface.
-    pub(super) fn from_mm(&self, place: Vec3) -> Vec3A {
+    pub(super) fn in_unit(&self, place: Vec3) -> Vec3A {
         Vec3A::from((place - self.centre) / self.unit)
     }
 
