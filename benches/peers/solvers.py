@@ -25,7 +25,7 @@ PROGRAM = os.environ.get("LUMEN_PROGRAM", ROOT / "target" / "release" / "lumen")
 DATA = Path(os.environ.get("LUMEN_DATA", ROOT.parent / "shared" / "data"))
 ENDINGS = {".stl", ".vtp", ".obj", ".ply", ".vtk"}
 OPTIONS = ["--clip", "1", "--extend", "3", "--cap", "planar", "--remesh", "12", "--uncross"]
-LIMIT = 300
+LIMIT = 60
 
 
 def quality(mesh):

@@ -31,10 +31,10 @@ pub struct Prepare {
     #[arg(long)]
     uncross: bool,
     /// Cut the ends square to the vessel: "round" for where each is round, or so far in: radii, or mm as in 3mm
-    #[arg(long, value_name = "WHERE", value_parser = clip_at)]
+    #[arg(long, value_name = "WHERE", value_parser = clip_at, allow_hyphen_values = true)]
     clip: Option<ClipAt>,
     /// Extend each end by so many radii, or mm as in 30mm
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", value_parser = length, allow_hyphen_values = true)]
     extend: Option<Length>,
     /// Close each end: fan, planar (evenly meshed) or smooth
     #[arg(long, value_name = "KIND", value_parser = cap_kind)]

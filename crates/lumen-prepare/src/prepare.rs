@@ -1,5 +1,6 @@
 //! All of it in one call: the largest piece, uncross, clip, extend, cap, remesh, check.
 
+use glam::DVec3;
 use thiserror::Error;
 
 use super::cap::{CapError, CapKind, cap};
@@ -22,6 +23,9 @@ use lumen_vessel::{End, Tree, TreeError};
 
 /// An extension that would run into something is as long as this part of what is free.
 const OF_FREE: f64 = 0.9;
+
+/// An end is flat where no vertex of it is farther than this part of its radius from its plane.
+const FLAT: f64 = 1e-3;
 
 /// Where vessels are cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,13 +152,16 @@ pub fn prepare(mesh: &TriMesh, plan: &Plan) -> Result<Prepared, PrepareError> {
     } else {
         in_patches(mesh)
     };
+    measure(&mut surface);
     let mut remeshed = None;
     if let Some(sizing) = &plan.remesh {
         let radii = radii(&surface);
-        let Remeshed { surface: new, quality, deviation, .. } = remesh(&surface, &radii, sizing)?;
-        (surface, remeshed) = (new, Some((quality, deviation)));
+        let Remeshed { surface: new, deviation, .. } = remesh(&surface, &radii, sizing)?;
+        surface = new;
+        hold_areas(&mut surface);
+        remeshed = Some((Quality::of(&surface.mesh), deviation));
+        measure(&mut surface);
     }
-    measure(&mut surface);
     let fate = check(&surface);
     Ok(Prepared { surface, fate, notes, uncrossed, remeshed })
 }
@@ -266,7 +273,8 @@ fn extended(mesh: TriMesh, ends: Vec<OpenEnd>, length: Length, notes: &mut Vec<N
 /// Fills the holes of the wall; openings that are neither holes nor among `ends` are closed by a fan.
 fn without_holes(mesh: &TriMesh, notes: &mut Vec<Note>) -> Result<(TriMesh, Vec<OpenEnd>), PrepareError> {
     let mut mesh = fill(mesh, f64::INFINITY).mesh;
-    let (ends, refused) = open_ends(&mesh)?;
+    let (mut ends, refused) = open_ends(&mesh)?;
+    ends.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
     if refused.is_empty() {
         return Ok((mesh, ends));
     }
@@ -320,6 +328,29 @@ fn radii(surface: &Patched) -> Vec<f32> {
         }
     }
     radii
+}
+
+/// Brings each flat inlet and outlet to the area that its patch has: fewer edges around a circle hold less.
+fn hold_areas(surface: &mut Patched) {
+    for (number, patch) in surface.patches.iter().enumerate().filter(|(_, patch)| patch.kind != PatchKind::Wall) {
+        let (centre, normal) = (DVec3::from_array(patch.centre), DVec3::from_array(patch.normal));
+        let of = |t: &usize| surface.of_triangle[*t] as usize == number;
+        let triangles: Vec<usize> = (0..surface.mesh.triangles.len()).filter(of).collect();
+        let area: f64 = triangles.iter().map(|&t| triangle_area(surface.mesh.corners(t))).sum();
+        let mut vertices: Vec<u32> = triangles.iter().flat_map(|&t| surface.mesh.triangles[t]).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let off = |&v: &u32| (surface.mesh.positions[v as usize].as_dvec3() - centre).dot(normal).abs();
+        let is_flat = vertices.iter().map(off).fold(0.0, f64::max) < FLAT * patch.radius_mm();
+        if !is_flat || area <= 0.0 {
+            continue;
+        }
+        let scale = libm::sqrt(patch.area_mm2 / area);
+        for v in vertices {
+            let p = &mut surface.mesh.positions[v as usize];
+            *p = (centre + (p.as_dvec3() - centre) * scale).as_vec3();
+        }
+    }
 }
 
 /// Measures the areas of the patches.
