@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("LUMEN_PROGRAM", ROOT / "target" / "release" / "lumen")
 DATA = Path(os.environ.get("LUMEN_DATA", ROOT.parent / "shared" / "data"))
 ENDINGS = {".stl", ".vtp", ".obj", ".ply", ".vtk"}
-OPTIONS = ["--clip", "1", "--extend", "3", "--cap", "planar", "--remesh", "12", "--uncross"]
+OPTIONS = ["--clip", "1", "--extend", "3", "--cap", "planar", "--remesh", "12", "--uncross", "--unit", "auto"]
 LIMIT = 60
 
 
@@ -152,7 +152,9 @@ def main():
             failed += patches["is_ready"] and None in cells[:2]
             line = f"{name:44} {len(patches['patches']) - 1:4} {mesh.n_cells:9,} {mean:7.3f} {100 * small:5.2f}% {seconds:4.1f} |"
             line += "".join(f" {cell:8,}" if cell else "       no" for cell in cells)
-            if not isinstance(source, str):
+            # A file in cm or m is not as large as what Lumen made of it.
+            is_mm = not isinstance(source, str) and pv.read(source).length > mesh.length / 5
+            if is_mm:
                 edge = np.sqrt(4 / np.sqrt(3) * mesh.area / mesh.n_cells)
                 other = peers(source, folder, edge)
                 line += " |"
