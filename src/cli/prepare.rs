@@ -92,23 +92,34 @@ fn format(text: &str) -> Result<SolverFormat, String> {
 impl Prepare {
     /// Prepares the surface and writes it.
     pub(super) fn run(&self) -> Result<()> {
-        places::check([Path::new(&self.file)], [("the folder".to_owned(), &*self.output)])?;
         let plan = self.plan()?;
+        let stem = Path::new(&self.file).file_stem().map_or("surface".into(), |stem| stem.to_string_lossy());
+        let stem = stem.replace(':', "-");
+        let single = self.format.iter().filter(|format| **format != SolverFormat::SimVascular);
+        let names: Vec<String> =
+            single.map(|format| format.extension()).chain(["json"]).map(|ending| format!("{stem}.{ending}")).collect();
+        self.check(names.iter().map(String::as_str))?;
         interrupt::listen()?;
         let Imported { mesh, .. } = source::read_with(&self.file, self.unit, &Default::default())?;
         let before = mesh.triangles.len();
         let found = prepare(&mesh, &plan).map_err(|error| anyhow!("the surface cannot be prepared: {error}"))?;
         interrupt::check()?;
-        let stem = Path::new(&self.file).file_stem().map_or("surface".into(), |stem| stem.to_string_lossy());
-        let stem = stem.replace(':', "-");
+        let mut files = vec![(format!("{stem}.json"), summary(&found)?)];
         for format in &self.format {
-            for (name, bytes) in format.written(&found.surface, &stem)? {
-                self.write(&name, &bytes)?;
-            }
+            files.extend(format.written(&found.surface, &stem)?);
         }
-        self.write(&format!("{stem}.json"), &summary(&found)?)?;
+        self.check(files.iter().map(|(name, _)| name.as_str()))?;
+        for (name, bytes) in &files {
+            self.write(name, bytes)?;
+        }
         print(&found, before, &self.output);
         Ok(())
+    }
+
+    /// Refuses to write over the file that is read.
+    fn check<'a>(&self, names: impl Iterator<Item = &'a str>) -> Result<()> {
+        let outputs: Vec<(String, PathBuf)> = names.map(|name| (name.to_owned(), self.output.join(name))).collect();
+        places::check([Path::new(&self.file)], outputs.iter().map(|(what, path)| (what.clone(), path.as_path())))
     }
 
     fn plan(&self) -> Result<Plan> {
@@ -177,8 +188,8 @@ fn print(found: &Prepared, before: usize, folder: &Path) {
         );
         row("deviation", format!("{:.3} mm", deviation.to_old_mm.max(deviation.to_new_mm)));
     }
-    row("volume meshers", if found.fate.is_ready() { "will take it" } else { "will not take it" });
-    row("written to", folder.display());
+    row("volume meshers", if found.fate.is_ready() { "nothing was found that stops them" } else { "will not take it" });
+    row("written to", format!("{}, in mm", folder.display()));
     for note in &found.notes {
         eprintln!("lumen: warning: {note}");
     }

@@ -33,7 +33,10 @@ fn the_aorta_is_clipped_extended_capped_and_remeshed_for_every_solver() {
     let options = ["--clip", "round", "--extend", "3", "--cap", "planar", "--remesh", "12", "-o", &out];
     let printed =
         succeed(&[&["prepare", "sample:aorta", "--format", "stl,msh,inp,vtp,simvascular"], &options[..]].concat());
-    assert!(printed.contains("will take it") && printed.ends_with("Not for clinical decisions.\n"), "{printed}");
+    assert!(
+        printed.contains("nothing was found that stops them") && printed.ends_with("Not for clinical decisions.\n"),
+        "{printed}"
+    );
     let out = Path::new(&out);
     let files: BTreeSet<String> = walk(out);
     let of = |ending: &str| files.iter().filter(|name| name.ends_with(ending)).count();
@@ -55,6 +58,55 @@ fn the_aorta_is_clipped_extended_capped_and_remeshed_for_every_solver() {
     let inspected = succeed(&["inspect", named(".stl").to_str().unwrap(), "--json"]);
     let inspected: serde_json::Value = serde_json::from_str(&inspected).unwrap();
     assert_eq!((inspected["boundary_edges"].as_u64(), inspected["components"].as_u64()), (Some(0), Some(1)));
+}
+
+#[test]
+fn the_file_that_is_read_is_never_written_over() {
+    let folder = Folder::new("prepare-over");
+    let file = folder.file("tube.stl");
+    let tube = lumen::mesh::shapes::tube(24, 30, 30.0, |_| 2.0);
+    let bytes = lumen::io::write(&tube, None, lumen::io::Format::Stl).unwrap();
+    std::fs::write(&file, &bytes).unwrap();
+    let out = Path::new(&file).parent().unwrap().to_str().unwrap();
+    let refused = lumen(&["prepare", &file, "--cap", "planar", "-o", out]);
+    assert_eq!(refused.status.code(), Some(2), "{}", String::from_utf8_lossy(&refused.stderr));
+    assert_eq!(std::fs::read(&file).unwrap(), bytes);
+    assert!(!Path::new(out).join("tube.json").exists());
+}
+
+#[test]
+fn what_has_no_end_is_told_and_what_was_closed_is_closed_again() {
+    let folder = Folder::new("prepare-ends");
+    let [ball, tube] = ["ball.ply", "tube.ply"].map(|name| folder.file(name));
+    let write = |file: &str, mesh: &lumen::mesh::TriMesh| {
+        std::fs::write(file, lumen::io::write(mesh, None, lumen::io::Format::Ply).unwrap()).unwrap();
+    };
+    write(&ball, &lumen::mesh::shapes::icosphere(4, 5.0, glam::Vec3::ZERO));
+    write(&tube, &lumen::mesh::shapes::capped(24, 30, 30.0, 2.0));
+    let out = folder.file("out");
+    let told = lumen(&["prepare", &ball, "--cap", "planar", "-o", &out]);
+    assert!(told.status.success() && String::from_utf8_lossy(&told.stderr).contains("no end was found"), "{told:?}");
+    succeed(&["prepare", &tube, "--extend", "5", "-o", &out]);
+    let patches = json(&format!("{out}/tube.json"));
+    assert_eq!((patches["is_ready"].as_bool(), patches["patches"].as_array().unwrap().len()), (Some(true), 3));
+}
+
+#[test]
+fn a_cap_that_is_rounded_is_told_with_what_would_help() {
+    let folder = Folder::new("caps");
+    let [file, out] = ["tube.ply", "out.ply"].map(|name| folder.file(name));
+    let tube = lumen::mesh::shapes::capped(96, 120, 30.0, 2.0);
+    std::fs::write(&file, lumen::io::write(&tube, None, lumen::io::Format::Ply).unwrap()).unwrap();
+    let of = |options: &[&str]| {
+        let done = lumen(&[&["optimise", &file, "-o", &out], options].concat());
+        assert!(done.status.success());
+        String::from_utf8_lossy(&done.stderr).into_owned()
+    };
+    let told = of(&["--no-hold-caps"]);
+    assert!(told.contains("2 inlets and outlets are no longer flat.") && told.contains("Hold the caps"), "{told}");
+    assert!(!of(&[]).contains("inlet"));
+    // What is left as it was has changed nothing.
+    assert!(!of(&["--no-hold-caps", "--iterations", "0", "--reduction", "0"]).contains("inlet"));
 }
 
 /// The files below a folder, by their ways from it.

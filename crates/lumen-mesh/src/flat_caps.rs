@@ -17,7 +17,7 @@ const CREASE: f64 = 0.906_307_787_036_65;
 const CREASED: f64 = 0.95;
 /// Vertices of the least rim. The ends of the thinnest vessels of a mask are flat and round, too: most have 6 to 10.
 const LEAST_RIM: usize = 12;
-/// The bends of a rim sum up to at most so many full turns: those of a rim of voxels to 2 and more.
+/// The bends of a rim sum up to at most so many full turns: those of a rim of voxels sum up to 2 and more.
 const TURNS: f64 = 1.6;
 /// How far in the vessel is cut, in radii of the cap.
 const DEPTHS: [f64; 2] = [0.5, 1.0];

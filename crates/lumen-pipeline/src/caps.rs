@@ -172,27 +172,42 @@ pub fn changes_percent(caps: &[CapArea]) -> Option<[f64; 2]> {
 
 /// A cap with less than this part of its area in its plane is rounded.
 const FLAT: f64 = 0.75;
-/// A triangle of a level lies in a cap's plane where its corners are at most this part of the cap's radius off it.
+/// A triangle of a level lies in a cap where its corners are at most this part of the cap's radius off its plane, or twice as
+/// far as the cap's own are.
 const IN_PLANE: f64 = 1e-3;
-/// And in the cap where they are at most so many of its radii from its middle.
-const AROUND: f64 = 3.0;
+/// And at most so many times as far from its middle as its rim.
+const AROUND: f64 = 1.1;
 
-/// The areas of `caps` on `level`, a surface made from theirs. A cap that is no longer flat has less of it.
-pub fn cap_areas(caps: &[FlatCap], level: &TriMesh) -> Vec<CapArea> {
+/// The areas of `caps` of `opened` on `level`, a surface made from it. A cap that is no longer flat has less of it.
+pub fn cap_areas(caps: &[FlatCap], opened: &TriMesh, level: &TriMesh) -> Vec<CapArea> {
+    let places = |cap: &FlatCap, measure: &dyn Fn(DVec3) -> f64| {
+        cap.rim.iter().map(|&v| measure(opened.positions[v as usize].as_dvec3() - cap.centre)).fold(0.0, f64::max)
+    };
+    let reach: Vec<[f64; 2]> = caps
+        .iter()
+        .map(|cap| {
+            let off = places(cap, &|p| p.dot(cap.normal).abs());
+            [(IN_PLANE * cap.radius_mm()).max(2.0 * off), AROUND * places(cap, &DVec3::length)]
+        })
+        .collect();
+    let projected = |mesh: &TriMesh, t: usize, normal: DVec3| {
+        let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
+        (b - a).cross(c - a).dot(normal) / 2.0
+    };
+    let before = |cap: &FlatCap| cap.triangles.iter().map(|&t| projected(opened, t as usize, cap.normal)).sum();
     let mut areas: Vec<CapArea> = caps
         .iter()
-        .map(|cap| CapArea { before_mm2: cap.area_mm2, after_mm2: 0.0, centre: cap.centre.as_vec3().to_array() })
+        .map(|cap| CapArea { before_mm2: before(cap), after_mm2: 0.0, centre: cap.centre.as_vec3().to_array() })
         .collect();
     for t in 0..level.triangles.len() {
         let corners = level.corners(t).map(Vec3::as_dvec3);
-        for (cap, area) in caps.iter().zip(&mut areas) {
-            let radius = cap.radius_mm();
+        for ((cap, [off, around]), area) in caps.iter().zip(&reach).zip(&mut areas) {
             let is_in = |p: DVec3| {
-                (p - cap.centre).dot(cap.normal).abs() < IN_PLANE * radius && p.distance(cap.centre) < AROUND * radius
+                let p = p - cap.centre;
+                p.dot(cap.normal).abs() < *off && p.length_squared() < around * around
             };
             if corners.into_iter().all(is_in) {
-                let [a, b, c] = corners;
-                area.after_mm2 += (b - a).cross(c - a).dot(cap.normal) / 2.0;
+                area.after_mm2 += projected(level, t, cap.normal);
             }
         }
     }
@@ -218,7 +233,7 @@ mod tests {
         pipeline.finish().unwrap();
         let level = pipeline.reduced().unwrap().mesh.clone();
         let caps = flat_caps(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
-        (cap_areas(&caps, &level), level)
+        (cap_areas(&caps, mesh, &level), level)
     }
 
     #[test]

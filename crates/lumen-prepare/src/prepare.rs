@@ -24,8 +24,11 @@ use lumen_vessel::{End, Tree, TreeError};
 /// An extension that would run into something is as long as this part of what is free.
 const OF_FREE: f64 = 0.9;
 
-/// An end is flat where no vertex of it is farther than this part of its radius from its plane.
-const FLAT: f64 = 1e-3;
+/// An end is flat where no vertex of it is farther than this part of its radius from its plane; what is opened may be a
+/// hundredth off.
+const FLAT: f64 = 0.011;
+/// Times for each end that extensions are tried.
+const ROUNDS: usize = 4;
 
 /// Where vessels are cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,8 +67,22 @@ pub enum Note {
     #[error("an end is not cut: {0}")]
     NoPlane(#[from] EndError),
     /// A plane does not cut.
-    #[error("an end is not cut: {0}")]
-    NotCut(#[from] ClipError),
+    #[error("the end at ({:.1}, {:.1}, {:.1}) is not cut: {why}", at[0], at[1], at[2])]
+    NotCut {
+        /// The middle of the plane, in mm.
+        at: [f64; 3],
+        /// Why not.
+        why: ClipError,
+    },
+    /// Nothing is extended or closed.
+    #[error("no end was found that could be extended or closed: cut the ends first (--clip)")]
+    NoEnds,
+    /// Holes of the wall are filled.
+    #[error("{count} holes of the wall are filled")]
+    Filled {
+        /// How many.
+        count: usize,
+    },
     /// A loop is no end.
     #[error("an opening is closed as a part of the wall: {0}")]
     NoEnd(#[from] RimError),
@@ -77,9 +94,14 @@ pub enum Note {
         /// How long it is, in mm.
         mm: f64,
     },
-    /// Ends are not extended.
-    #[error("ends are not extended: {0}")]
-    NotExtended(#[from] ExtendError),
+    /// An end is not extended.
+    #[error("{name} is not extended: {why}")]
+    NotExtended {
+        /// The end.
+        name: String,
+        /// Why not.
+        why: ExtendError,
+    },
 }
 
 /// Why a surface cannot be prepared.
@@ -113,7 +135,8 @@ pub struct Prepared {
     pub notes: Vec<Note>,
     /// What became of triangles that crossed, where that was asked for.
     pub uncrossed: Option<Uncrossed>,
-    /// How well the triangles are shaped, and how far the surface went from what was remeshed, where it was.
+    /// How well the triangles are shaped, and how far they went before ends were brought back to their areas, where they were
+    /// made anew.
     pub remeshed: Option<(Quality, Deviation)>,
 }
 
@@ -140,12 +163,17 @@ pub fn prepare(mesh: &TriMesh, plan: &Plan) -> Result<Prepared, PrepareError> {
     }
     let mut surface = if plan.extend.is_some() || plan.cap.is_some() {
         // What is flat and closed is an end like those that are open.
-        let (mesh, ends) = without_holes(&largest_piece(opened(&mesh)).0, &mut notes)?;
+        let (walls, had_caps) = opened(&mesh);
+        let (mesh, ends) = without_holes(&largest_piece(walls).0, &mut notes)?;
+        if ends.is_empty() {
+            notes.push(Note::NoEnds);
+        }
         let (mesh, ends) = match plan.extend.filter(|_| !ends.is_empty()) {
             Some(length) => extended(mesh, ends, length, &mut notes),
             None => (mesh, ends),
         };
-        match plan.cap.filter(|_| !ends.is_empty()) {
+        // What was closed is closed again.
+        match plan.cap.or(had_caps.then_some(CapKind::Planar)).filter(|_| !ends.is_empty()) {
             Some(kind) => cap(&mesh, &ends, kind)?,
             None => Patched::wall(mesh),
         }
@@ -195,26 +223,29 @@ fn clipped(mesh: TriMesh, at: ClipAt, notes: &mut Vec<Note>) -> Result<TriMesh, 
 }
 
 /// The surface cut at those planes that cut it.
-fn cut_at(mut mesh: TriMesh, planes: &[EndPlane], notes: &mut Vec<Note>) -> TriMesh {
-    let mut rest = planes;
-    while !rest.is_empty() {
-        let error = match clip(&mesh, rest) {
-            Ok(Clipped { mesh, .. }) => return mesh,
-            Err(error) => error,
-        };
-        let failed = error.end().filter(|&end| end < rest.len());
-        notes.push(error.into());
-        let Some(failed) = failed else { break };
-        // Those before it cut: they are made, and the others are tried without it.
-        if failed > 0 {
-            match clip(&mesh, &rest[..failed]) {
-                Ok(Clipped { mesh: cut, .. }) => mesh = cut,
-                Err(error) => notes.push(error.into()),
-            }
+fn cut_at(mesh: TriMesh, planes: &[EndPlane], notes: &mut Vec<Note>) -> TriMesh {
+    let (first, error) = match (clip(&mesh, planes), planes) {
+        (_, []) => return mesh,
+        (Ok(Clipped { mesh, .. }), _) => return mesh,
+        (Err(error), [first, ..]) => (first, error),
+    };
+    let failed = error.end().filter(|&end| end < planes.len());
+    match failed {
+        // The others are cut without it.
+        Some(failed) => {
+            notes.push(Note::NotCut { at: planes[failed].centre.to_array(), why: error });
+            let mesh = cut_at(mesh, &planes[..failed], notes);
+            cut_at(mesh, &planes[failed + 1..], notes)
         }
-        rest = &rest[failed + 1..];
+        // It is one of them: each by itself shows which.
+        None if planes.len() > 1 => {
+            planes.iter().fold(mesh, |mesh, plane| cut_at(mesh, std::slice::from_ref(plane), notes))
+        }
+        None => {
+            notes.push(Note::NotCut { at: first.centre.to_array(), why: error });
+            mesh
+        }
     }
-    mesh
 }
 
 /// The largest piece of a surface, and how many others there were.
@@ -226,20 +257,20 @@ fn largest_piece(mesh: TriMesh) -> (TriMesh, usize) {
     }
 }
 
-/// The surface without its flat caps.
-fn opened(mesh: &TriMesh) -> TriMesh {
+/// The surface without its flat caps, and whether it had some.
+fn opened(mesh: &TriMesh) -> (TriMesh, bool) {
     let caps = flat_caps(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
     let mut is_cap = vec![false; mesh.triangles.len()];
     caps.iter().flat_map(|cap| &cap.triangles).for_each(|&t| is_cap[t as usize] = true);
     let walls = mesh.triangles.iter().zip(&is_cap).filter(|(_, is_cap)| !**is_cap).map(|(&t, _)| t).collect();
-    compacted(&mesh.positions, walls)
+    (compacted(&mesh.positions, walls), !caps.is_empty())
 }
 
 /// The surface and its ends with extensions, as long as there is room for.
 fn extended(mesh: TriMesh, ends: Vec<OpenEnd>, length: Length, notes: &mut Vec<Note>) -> (TriMesh, Vec<OpenEnd>) {
     let mut lengths = vec![Some(length); ends.len()];
     // Each time at least one is shorter, or left as it is.
-    for _ in 0..=2 * ends.len() {
+    for _ in 0..=ROUNDS * ends.len() {
         let (with, of): (Vec<OpenEnd>, Vec<Length>) =
             ends.iter().zip(&lengths).filter_map(|(end, length)| Some((end.clone(), (*length)?))).unzip();
         if with.is_empty() {
@@ -254,8 +285,22 @@ fn extended(mesh: TriMesh, ends: Vec<OpenEnd>, length: Length, notes: &mut Vec<N
             }
             Err(ExtendError::Collides { free }) => free,
             Err(error) => {
-                notes.push(error.into());
-                break;
+                // Each by itself shows which.
+                let mut is_found = false;
+                for (i, end) in ends.iter().enumerate() {
+                    let alone = lengths[i].map(|length| extend(&mesh, std::slice::from_ref(end), &[length]));
+                    if let Some(Err(error)) = alone
+                        && !matches!(error, ExtendError::Collides { .. })
+                    {
+                        (lengths[i], is_found) = (None, true);
+                        notes.push(Note::NotExtended { name: end.name.clone(), why: error });
+                    }
+                }
+                if !is_found {
+                    notes.push(Note::NotExtended { name: "every end".to_owned(), why: error });
+                    break;
+                }
+                continue;
             }
         };
         for (name, mm) in free {
@@ -267,12 +312,22 @@ fn extended(mesh: TriMesh, ends: Vec<OpenEnd>, length: Length, notes: &mut Vec<N
             notes.push(Note::Shortened { name, mm });
         }
     }
+    // None is made: whatever was to be shorter is not there.
+    for note in notes.iter_mut() {
+        if let Note::Shortened { mm, .. } = note {
+            *mm = 0.0;
+        }
+    }
     (mesh, ends)
 }
 
 /// Fills the holes of the wall; openings that are neither holes nor among `ends` are closed by a fan.
 fn without_holes(mesh: &TriMesh, notes: &mut Vec<Note>) -> Result<(TriMesh, Vec<OpenEnd>), PrepareError> {
-    let mut mesh = fill(mesh, f64::INFINITY).mesh;
+    let filled = fill(mesh, f64::INFINITY);
+    if filled.filled > 0 {
+        notes.push(Note::Filled { count: filled.filled });
+    }
+    let mut mesh = filled.mesh;
     let (mut ends, refused) = open_ends(&mesh)?;
     ends.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
     if refused.is_empty() {

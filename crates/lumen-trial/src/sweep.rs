@@ -20,7 +20,7 @@ const SLICE: u32 = 500;
 /// The middle and the largest of the values of all seeds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
-    /// The median.
+    /// The median; of an even number the lower of the two in the middle.
     pub median: f64,
     /// The largest.
     pub largest: f64,

@@ -66,7 +66,7 @@ impl Default for Smoothing {
 }
 
 impl Smoothing {
-    /// Whether these make the same surface and levels: without iterations, all but the caps does not matter.
+    /// Whether these make the same surface and levels: without iterations, only whether caps are held matters.
     pub fn gives_same(&self, other: &Self) -> bool {
         self == other || (self.iterations == 0 && other.iterations == 0 && self.hold_caps == other.hold_caps)
     }

@@ -31,8 +31,8 @@ fn start(store: &Store) -> Option<Run> {
     let (index, known_widths) = (store.now.indices.kept.clone(), store.known_widths().cloned());
     let arrays = if settings.keep_labels { kept_arrays(store) } else { None };
     let labels = arrays.and_then(|arrays| labels_of(&kept.mesh, &arrays));
-    let holds_caps = store.now.settings.smoothing;
-    let labels = with_caps(labels, kept.held_caps(&holds_caps), kept.mesh.triangles.len());
+    let smoothing = store.now.settings.smoothing;
+    let labels = with_caps(labels, kept.held_caps(&smoothing), kept.mesh.triangles.len());
     let needs_vertices = !store.arrays.is_empty();
     Some(Run::new(move |yielder, outbox| async move {
         // The widths are those of the kept surface, whoever finds them: the levels are the same.
@@ -50,7 +50,7 @@ fn start(store: &Store) -> Option<Run> {
             }
             known => (known.filter(|_| settings.spare_thin), 0.0),
         };
-        let caps = kept.held_caps(&holds_caps);
+        let caps = kept.held_caps(&smoothing);
         let holds = Holds { widths: known.as_deref(), labels: labels.as_deref(), caps };
         let part = yielder.part(begun..1.0);
         let Decimated { progressive, vertex_of_node } =

@@ -176,7 +176,8 @@ impl Filtering {
         yielder.rest(1.0).await;
         // What is put back has the volume that it had.
         let change = self.kept.measures.volume_mm3.zip(measures.volume_mm3).map(|(before, after)| after / before - 1.0);
-        let is_held = weakened.is_none() || change.is_some_and(|change| change.abs() <= VOLUME_TOLERANCE);
+        let is_untouched = weakened.is_none() && self.kept.held_caps(&self.settings).is_empty();
+        let is_held = is_untouched || change.is_some_and(|change| change.abs() <= VOLUME_TOLERANCE);
         Smoothed {
             mesh,
             filter: Some(self.filter.clone()),

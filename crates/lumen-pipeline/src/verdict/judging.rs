@@ -277,7 +277,9 @@ fn of_report(known: &Known<'_>, report: &Report) -> Vec<Finding> {
 
 /// The flat caps that change their areas by more than [`AREA_PERCENT`].
 fn caps(known: &Known<'_>, report: &Report) -> Option<Finding> {
-    let changed = report.caps.iter().flatten().filter(|cap| cap.change_percent().abs() > AREA_PERCENT);
+    let caps = || report.caps.iter().flatten();
+    let is_rounded = caps().any(|cap| !cap.is_flat());
+    let changed = caps().filter(|cap| cap.change_percent().abs() > AREA_PERCENT && cap.is_flat() != is_rounded);
     let count = changed.clone().count();
     let worst = changed.reduce(|a, b| if b.change_percent().abs() > a.change_percent().abs() { b } else { a })?;
     let percent = worst.change_percent();
