@@ -175,8 +175,8 @@ const FLAT: f64 = 0.75;
 /// A triangle of a level lies in a cap where its corners are at most this part of the cap's radius off its plane, or twice as
 /// far as the cap's own are.
 const IN_PLANE: f64 = 1e-3;
-/// And at most so many times as far from its middle as its rim.
-const AROUND: f64 = 1.1;
+/// And at most so many times as far from its middle as its rim was.
+const AROUND: f64 = 3.0;
 
 /// The areas of `caps` of `opened` on `level`, a surface made from it. A cap that is no longer flat has less of it.
 pub fn cap_areas(caps: &[FlatCap], opened: &TriMesh, level: &TriMesh) -> Vec<CapArea> {
@@ -187,7 +187,7 @@ pub fn cap_areas(caps: &[FlatCap], opened: &TriMesh, level: &TriMesh) -> Vec<Cap
         .iter()
         .map(|cap| {
             let off = places(cap, &|p| p.dot(cap.normal).abs());
-            [(IN_PLANE * cap.radius_mm()).max(2.0 * off), AROUND * places(cap, &DVec3::length)]
+            [(IN_PLANE * cap.radius_mm()).max(2.0 * off), places(cap, &DVec3::length)]
         })
         .collect();
     let projected = |mesh: &TriMesh, t: usize, normal: DVec3| {
@@ -201,14 +201,20 @@ pub fn cap_areas(caps: &[FlatCap], opened: &TriMesh, level: &TriMesh) -> Vec<Cap
         .collect();
     for t in 0..level.triangles.len() {
         let corners = level.corners(t).map(Vec3::as_dvec3);
-        for ((cap, [off, around]), area) in caps.iter().zip(&reach).zip(&mut areas) {
-            let is_in = |p: DVec3| {
-                let p = p - cap.centre;
-                p.dot(cap.normal).abs() < *off && p.length_squared() < around * around
-            };
-            if corners.into_iter().all(is_in) {
-                area.after_mm2 += projected(level, t, cap.normal);
+        // Ends that were cut off by one plane lie in it side by side: a triangle is of the cap that it is well within.
+        let mut nearest: Option<(f64, usize)> = None;
+        for (i, (cap, [off, around])) in caps.iter().zip(&reach).enumerate() {
+            let is_in_plane = |p: DVec3| (p - cap.centre).dot(cap.normal).abs() < *off;
+            if !corners.into_iter().all(is_in_plane) {
+                continue;
             }
+            let away = corners.into_iter().map(|p| p.distance(cap.centre) / around).fold(0.0, f64::max);
+            if away < AROUND && nearest.is_none_or(|(least, _)| away < least) {
+                nearest = Some((away, i));
+            }
+        }
+        if let Some((_, i)) = nearest {
+            areas[i].after_mm2 += projected(level, t, caps[i].normal);
         }
     }
     areas
@@ -252,6 +258,18 @@ mod tests {
                 assert_eq!(self_intersections(&level).len(), 0);
             }
         }
+    }
+
+    #[test]
+    fn caps_side_by_side_in_one_plane_are_not_counted_into_each_other() {
+        let wide = capped(48, 60, 30.0, 4.0);
+        let mut thin = capped(24, 60, 30.0, 1.0);
+        thin.positions.iter_mut().for_each(|p| p.x += 5.5);
+        let mesh = lumen_mesh::shapes::joined(&[wide, thin]);
+        let caps = flat_caps(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+        let areas = cap_areas(&caps, &mesh, &mesh);
+        assert_eq!(areas.len(), 4);
+        assert!(areas.iter().all(|area| area.change_percent().abs() < 1e-9), "{areas:?}");
     }
 
     #[test]
