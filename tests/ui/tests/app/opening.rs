@@ -160,7 +160,8 @@ fn a_surface_that_is_cancelled_on_its_way_in_leaves_the_one_that_is_open() {
     harness.get_by_role_and_label(Role::Button, "Sample").click();
     harness.run_steps(3);
     harness.get_by_label_contains("oronary").click();
-    harness.run_steps(20);
+    // Pieces and caps are found first, a rest at a time.
+    harness.run_steps(60);
     assert!(harness.query_by_label_contains("Smoothing").is_some(), "it is read, and on its way");
     let document = harness.state().state().document.as_ref().unwrap();
     assert!(document.name != "Abdominal aorta" && document.shown.is_none());
