@@ -11,6 +11,7 @@ const ALL: &[&[&[Signature]]] = &[
     lumen_io::MESSAGES,
     lumen_mesh::MESSAGES,
     lumen_pipeline::MESSAGES,
+    lumen_prepare::MESSAGES,
     lumen_transfer::MESSAGES,
     lumen_trial::MESSAGES,
     lumen_vessel::MESSAGES,

@@ -10,7 +10,7 @@ const SIMD_MODULE = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11,
 ]);
 
-/** What the result is saved as when the program has stopped. */
+/** What the result is saved as when the program has stopped, as in web/src/worker.rs. */
 const RESULT = "lumen-result.stl";
 /** How long the engine may take to answer then. */
 const PATIENCE_MS = 10_000;
@@ -55,11 +55,11 @@ function rescued() {
     setTimeout(resolve, PATIENCE_MS);
     engine.onerror = () => resolve(null);
     engine.onmessage = ({ data }) => {
-      const { Written, NotWritten } = JSON.parse(data[0]);
-      if (Written || NotWritten) resolve(Written ? data[1] : null);
+      // The answer alone names the file; where there is one, its bytes stand beside.
+      if (new TextDecoder().decode(data[0]).includes(RESULT)) resolve(data[1] ?? null);
     };
-    // As src/engine/message.rs has it.
-    engine.postMessage([JSON.stringify({ WriteLevel: { name: RESULT, format: "stl" } })]);
+    // As web/src/worker.rs has made it.
+    engine.postMessage(engine.save);
   });
 }
 

@@ -50,10 +50,12 @@ def tetgen(path):
     return filler.grid.n_cells, abs(filler.grid.compute_cell_sizes()["Volume"]).sum()
 
 
-def gmsh(path):
+def gmsh_mesh(path):
+    """The places and the tetrahedra, four places each, that Gmsh fills a file's surfaces with."""
     import gmsh as gm
 
     gm.initialize(interruptible=False)
+    gm.option.setNumber("General.Terminal", 0)
     gm.merge(str(path))
     if path.suffix == ".stl":
         gm.model.mesh.createTopology()
@@ -61,13 +63,20 @@ def gmsh(path):
     gm.model.geo.addVolume([gm.model.geo.addSurfaceLoop(surfaces)])
     gm.model.geo.synchronize()
     gm.model.mesh.generate(3)
-    _, tags, nodes = gm.model.mesh.getElements(3)
+    _, _, nodes = gm.model.mesh.getElements(3)
     ids, places, _ = gm.model.mesh.getNodes()
+    gm.finalize()
     index = np.zeros(int(ids.max()) + 1, int)
     index[ids.astype(int)] = np.arange(len(ids))
-    p = places.reshape(-1, 3)[index[nodes[0].astype(int)]].reshape(-1, 4, 3)
+    used, cells = np.unique(index[nodes[0].astype(int)], return_inverse=True)
+    return places.reshape(-1, 3)[used], cells.reshape(-1, 4)
+
+
+def gmsh(path):
+    places, cells = gmsh_mesh(path)
+    p = places[cells]
     volume = abs(np.einsum("ij,ij->i", p[:, 1] - p[:, 0], np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 0]))).sum() / 6
-    return len(tags[0]), volume
+    return len(cells), volume
 
 
 def ftetwild(path):

@@ -1,8 +1,8 @@
 //! What every fuzz target checks.
 
-use lumen::io::volume::{self, Head, Part, Scan, ScanError};
-use lumen::io::{ImportOptions, Imported, read};
-use lumen::mesh::arrays::Association;
+use lumen_io::volume::{self, Head, Part, Scan, ScanError};
+use lumen_io::{ImportOptions, Imported, read};
+use lumen_mesh::arrays::Association;
 
 /// Reads bytes that may be anything: they give a sound surface or a sentence. Panics, hangs and memory are libFuzzer's to
 /// find.

@@ -3,7 +3,7 @@
 
 use super::options::ViewOptions;
 use super::row::Part;
-use super::{collapses, compare, lesson, measure, playback, record, scan, trial, vessels};
+use super::{collapses, compare, lesson, measure, playback, record, scan, solver, trial, vessels};
 use crate::io::{Axes, Format, Unit};
 use crate::language::Language;
 use crate::phantom::Sample;
@@ -90,6 +90,8 @@ pub enum Action {
     ToggleTrial,
     /// Something of the trial.
     Trial(trial::action::Action),
+    /// Something of the step that makes a level ready for a solver.
+    Solver(solver::action::Action),
     /// Something of the vessels and their calibre.
     Vessels(vessels::action::Action),
     /// Something of what is measured.

@@ -232,7 +232,12 @@ impl Document {
             self.lookups += 1;
         }
         match self.found {
-            Some((of, steps)) if of == target => self.set_shown(levels.level_after(steps)),
+            Some((of, steps)) if of == target => {
+                let is_it = |shown: &Shown| shown.level.steps == steps && shown.level.shortfall.is_none();
+                if !self.shown.as_ref().is_some_and(is_it) {
+                    self.set_shown(levels.level_after(steps));
+                }
+            }
             _ if target.is_searched() && self.shown.is_some() => {}
             _ => self.set_shown(levels.level(target)),
         }
@@ -247,7 +252,9 @@ impl Document {
 
     fn set_shown(&mut self, level: Level) {
         let Some((_, levels)) = &self.levels else { return };
-        if self.shown.as_ref().is_none_or(|shown| shown.level != level) {
+        // Of the same levels: new ones come with none shown.
+        let is_it = |shown: &Shown| shown.level.steps == level.steps && shown.level.shortfall == level.shortfall;
+        if !self.shown.as_ref().is_some_and(is_it) {
             let vertices = used_vertices(levels.positions.len(), &level.triangles).len();
             self.shown = Some(Shown { level, vertices, classes: OnceCell::new() });
             self.revision.shown += 1;

@@ -10,7 +10,7 @@
 //! 4. `state`, `mode`;
 //! 5. drawing: `arrays`, `overlay`, `scene`, `deviation`, `mending`, `verdict`;
 //! 6. panels beside the views: [`collapses`], [`measure`], [`vessels`]; then `views`;
-//! 7. modes with views of their own: `filling`, [`compare`], [`trial`], [`scan`]; [`lesson`], [`record`], `recovery`;
+//! 7. modes with views of their own: `filling`, [`compare`], [`solver`], [`trial`], [`scan`]; [`lesson`], [`record`], `recovery`;
 //! 8. the window: `Panels` below, `bar`, `invitation`, `shortcuts`, `lumen_app`, `lasting`.
 //!
 //! One more panel is its folder, its variant in `action` and its lines in `Panels` below.
@@ -29,6 +29,7 @@
 //! - `sharing`: settings as a file and in a link; `recovery`: what comes back after a reload.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
 //! - [`trial`]: the guidewire trial.
+//! - [`solver`]: a level made ready for a solver.
 //! - [`scan`]: a scan or a mask, before there is a surface.
 //! - [`vessels`]: what became of the calibre of each vessel.
 //! - [`record`]: reports, pictures and turntables, drawn by `portrait`.
@@ -101,6 +102,7 @@ mod sharing;
 mod sheets;
 mod shortcuts;
 mod sides;
+pub mod solver;
 mod speech;
 mod spoken;
 mod state;
@@ -144,27 +146,28 @@ struct Panels {
     vessels: vessels::Vessels,
     measure: measure::Measuring,
     compare: compare::CompareView,
+    solver: solver::SolverView,
     trial: trial::TrialPanel,
     scan: scan::ScanPanel,
 }
 
 impl Panels {
     /// All of them, the lowest first: Escape takes off the last.
-    fn all(&self) -> [&dyn Panel; 8] {
-        let Self { lesson, collapses, playback, compare, vessels, measure, trial, scan } = self;
-        [lesson, collapses, playback, compare, vessels, measure, trial, scan]
+    fn all(&self) -> [&dyn Panel; 9] {
+        let Self { lesson, collapses, playback, compare, vessels, measure, solver, trial, scan } = self;
+        [lesson, collapses, playback, compare, vessels, measure, solver, trial, scan]
     }
 
     /// All of them, in the same order.
-    fn all_mut(&mut self) -> [&mut dyn Panel; 8] {
-        let Self { lesson, collapses, playback, compare, vessels, measure, trial, scan } = self;
-        [lesson, collapses, playback, compare, vessels, measure, trial, scan]
+    fn all_mut(&mut self) -> [&mut dyn Panel; 9] {
+        let Self { lesson, collapses, playback, compare, vessels, measure, solver, trial, scan } = self;
+        [lesson, collapses, playback, compare, vessels, measure, solver, trial, scan]
     }
 
     /// Those that have views of their own.
-    fn filling_mut(&mut self) -> [&mut dyn Filling; 3] {
-        let Self { compare, trial, scan, .. } = self;
-        [compare, trial, scan]
+    fn filling_mut(&mut self) -> [&mut dyn Filling; 4] {
+        let Self { compare, solver, trial, scan, .. } = self;
+        [compare, solver, trial, scan]
     }
 
     /// What fills the window in this mode; `None` for the views of the method.
@@ -172,6 +175,7 @@ impl Panels {
         match mode {
             Mode::Method => None,
             Mode::Compare => Some(&mut self.compare),
+            Mode::Solver => Some(&mut self.solver),
             Mode::Trial => Some(&mut self.trial),
             Mode::Scan => Some(&mut self.scan),
         }

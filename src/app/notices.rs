@@ -75,6 +75,13 @@ impl Notices {
         self.all.push(Notice { text: text.to_owned(), kind, times, left_s: seconds_to_read(text) });
     }
 
+    /// Tells what nobody has asked for: it waits where something stands.
+    pub fn mention(&mut self, text: &str) {
+        let standing = self.all.pop_if(|notice| notice.stands());
+        self.tell(Kind::Done, text);
+        self.all.extend(standing);
+    }
+
     /// What is to be told now.
     pub fn newest(&self) -> Option<&Notice> {
         self.all.last()
@@ -151,6 +158,21 @@ mod tests {
         assert_eq!(told(&notices).as_deref(), Some("b.stl was not read."));
         notices.take_away();
         assert_eq!(told(&notices), None, "what was done before is old by now");
+    }
+
+    #[test]
+    fn what_nobody_has_asked_for_waits_for_what_went_wrong() {
+        let mut notices = Notices::default();
+        notices.tell(Kind::Wrong, "a.stl was not read.");
+        notices.tell(Kind::Wrong, "b.stl was not read.");
+        notices.mention("Reduced by 78.1 %.");
+        for text in ["b.stl was not read.", "Reduced by 78.1 %.", "a.stl was not read."] {
+            assert_eq!(told(&notices).as_deref(), Some(text));
+            notices.take_away();
+        }
+        notices.tell(Kind::Done, "Saved.");
+        notices.mention("Reduced by 78.1 %.");
+        assert_eq!(told(&notices).as_deref(), Some("Reduced by 78.1 %."));
     }
 
     #[test]

@@ -105,6 +105,8 @@ pub enum Part {
     Response,
     /// The error against the number of triangles.
     Error,
+    /// The step for a solver, all of it.
+    Solver,
 }
 
 impl Part {
@@ -113,10 +115,11 @@ impl Part {
         match self {
             Self::Response => 2,
             Self::Error => 3,
+            Self::Solver => 5,
         }
     }
 
-    const ALL: [Self; 2] = [Self::Response, Self::Error];
+    const ALL: [Self; 3] = [Self::Response, Self::Error, Self::Solver];
 
     fn id(self) -> Id {
         Id::unique(("part to be unfolded", self.salt()))
@@ -151,6 +154,7 @@ impl Part {
         match self {
             Self::Response => "Response",
             Self::Error => "Error against triangles",
+            Self::Solver => "For a solver",
         }
     }
 }

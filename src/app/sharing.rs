@@ -8,10 +8,11 @@ use super::state::State;
 use crate::engine::{Link as EngineLink, Source};
 use crate::io::Unit;
 use crate::pipeline::settings::Settings;
+use crate::prepare::prepare::Plan;
 use crate::render::Camera;
 use crate::say;
 use crate::sharing::{
-    Eye, Link, Measured, SharedSettings, SharedSurface, ShortDigest, read_settings_and, write_settings_and,
+    Beside, Eye, Link, Measured, SharedSettings, SharedSurface, ShortDigest, read_settings_and, write_settings_and,
 };
 
 /// What a settings file ends in.
@@ -40,7 +41,10 @@ impl Sharing {
             state.leave_out(&say!("app-measures-not-saved"));
         }
         let measured = of.map(|of| Measured { of, measures: state.measures.to_vec() });
-        files.offer_file(&name, write_settings_and(&shared(state), measured).into_bytes(), ctx);
+        // Of who never looked at the step, a file says nothing of it.
+        let is_used = state.preparation.made.is_some() || state.preparation.plan != Plan::flow();
+        let beside = Beside { measured, solver: is_used.then_some(state.preparation.plan) };
+        files.offer_file(&name, write_settings_and(&shared(state), beside).into_bytes(), ctx);
     }
 
     /// Where what is open can be seen by others as it is seen now: the page, the surface, the settings and the camera.
@@ -84,9 +88,10 @@ impl Sharing {
     /// Takes the settings of a file.
     pub(super) fn take_file(name: &str, bytes: &[u8], state: &mut State, link: &mut dyn EngineLink) {
         match read_settings_and(bytes) {
-            Ok((shared, measured)) => {
+            Ok((shared, Beside { measured, solver })) => {
                 let unit = shared.unit;
                 apply(shared, state);
+                state.preparation.plan = solver.unwrap_or(state.preparation.plan);
                 let is_read_again = take_unit(unit, state, link);
                 let mut text = say!("app-settings-taken", name = name);
                 if let Some(measured) = measured {

@@ -15,12 +15,14 @@ use super::compare::comparison::Comparison;
 use super::document::{Document, Revision};
 use super::history::History;
 use super::notices::{Kind, Notices};
+use super::solver::preparation::{Preparation, level};
 use crate::engine::{Calibre, Command, Link, Source, Work};
 use crate::io::{Axes, Unit};
 use crate::pipeline::paper;
 use crate::pipeline::report::AutoReport;
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::{Boundary, Keep, Settings, Target};
+use crate::prepare::prepare::Plan;
 use crate::sharing::measures::Measure;
 
 /// What undo goes back to.
@@ -32,12 +34,14 @@ pub struct Step {
     pub measures: Arc<Vec<Measure>>,
     /// The unit that was chosen for the numbers of the open file.
     pub unit: Option<Unit>,
+    /// What is done to a level for a solver.
+    pub plan: Plan,
 }
 
 impl Step {
     /// These settings, with nothing measured, in a unit that was chosen.
     pub fn of(settings: &Settings, unit: Option<Unit>) -> Self {
-        Self { settings: settings.clone(), measures: Arc::default(), unit }
+        Self { settings: settings.clone(), measures: Arc::default(), unit, plan: Plan::flow() }
     }
 }
 
@@ -53,6 +57,8 @@ pub struct State {
     pub document: Option<Document>,
     /// Settings that are compared.
     pub comparison: Comparison,
+    /// What is done to a level for a solver, and what came of it.
+    pub preparation: Preparation,
     /// Whether plain Laplacian smoothing is shown beside the level.
     pub shows_averaged: bool,
     /// The number of the newest request for it, and what that was for.
@@ -159,6 +165,7 @@ impl Default for State {
             settings,
             document: None,
             comparison: Comparison::default(),
+            preparation: Preparation::default(),
             shows_averaged: false,
             averaging: None,
             opening: Vec::new(),
@@ -258,7 +265,8 @@ impl State {
 
     /// What stands now, as a step.
     fn step(&self) -> Step {
-        Step { measures: self.measures.clone(), ..Step::of(&self.settings, self.asked_unit()) }
+        let (measures, plan) = (self.measures.clone(), self.preparation.plan);
+        Step { measures, plan, ..Step::of(&self.settings, self.asked_unit()) }
     }
 
     /// Goes one step back. A file that was read in another unit then is read in it again.
@@ -278,8 +286,8 @@ impl State {
         }
     }
 
-    fn take(&mut self, Step { settings, measures, unit }: Step, link: &mut dyn Link) {
-        (self.settings, self.measures) = (settings, measures);
+    fn take(&mut self, Step { settings, measures, unit, plan }: Step, link: &mut dyn Link) {
+        (self.settings, self.measures, self.preparation.plan) = (settings, measures, plan);
         if unit != self.asked_unit() {
             self.set_unit(unit, link);
         }
@@ -371,6 +379,8 @@ impl State {
     fn rest(&mut self) {
         self.work = match self.work {
             Some((Work::Comparing, _)) if !self.comparison.is_busy() => None,
+            Some((Work::Preparing, _)) if !self.preparation.is_busy() => None,
+            None if self.preparation.is_busy() => Some((Work::Preparing, 0.0)),
             None if self.comparison.is_busy() => Some((Work::Comparing, 0.0)),
             work => work,
         };
@@ -381,14 +391,35 @@ impl State {
     pub fn toggle_comparison(&mut self) {
         let is_open = !self.comparison.is_open();
         self.comparison.set_open(is_open);
+        self.preparation.is_open = false;
         if is_open && self.comparison.cells().is_empty() {
             self.comparison.set(paper::rates_of_figure_7(&self.settings));
         }
     }
 
+    /// Has the level that is shown made ready for a solver.
+    pub fn prepare_for_solver(&mut self, link: &mut dyn Link) {
+        let Some((document, mesh)) = self.document.as_ref().and_then(|d| Some((d, d.shown_mesh()?))) else { return };
+        let of = level(document.revision);
+        self.wake(link);
+        if self.engine == Engine::Empty {
+            self.load(link);
+        }
+        self.number += 1;
+        let (id, plan) = (self.number, self.preparation.plan);
+        self.preparation.ask(id, of);
+        link.send(Command::Prepare { id, mesh: Arc::new(mesh), plan });
+        self.rest();
+    }
+
     /// Tells the user something.
     pub fn tell(&mut self, text: &str) {
         self.notices.tell(Kind::Done, text);
+    }
+
+    /// Tells the user what nobody has asked for: after what went wrong.
+    pub fn mention(&mut self, text: &str) {
+        self.notices.mention(text);
     }
 
     /// Asks the user to do something.

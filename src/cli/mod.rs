@@ -36,6 +36,7 @@ mod scan;
 #[path = "no_scan.rs"]
 mod scan;
 mod scan_options;
+mod serve;
 mod settings;
 mod sheet;
 mod source;

@@ -1,6 +1,7 @@
 //! `lumen prepare`: a surface made ready for a flow or structure solver.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
@@ -9,14 +10,18 @@ use serde_json::{Value, json};
 use super::misuse::misuse;
 use super::places::write_whole;
 use super::rows::row;
+use super::running::progress_bar;
 use super::source::{self, UnitOption};
 use super::{interrupt, places};
 use crate::io::Imported;
+use crate::pipeline::report::DISCLAIMER;
+use crate::pipeline::task::{Budget, Progress, Running};
 use crate::prepare::cap::CapKind;
 use crate::prepare::ends::Length;
 use crate::prepare::prepare::{ClipAt, Plan, Prepared, prepare};
 use crate::prepare::remesh::Sizing;
 use crate::prepare::write::SolverFormat;
+use crate::sharing::{Beside, read_settings_and};
 
 /// Makes a surface ready for a solver: ends cut square, extended and capped, triangles as large as the calibre asks for,
 /// patches with names.
@@ -27,29 +32,34 @@ pub struct Prepare {
     /// The folder to write into
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    /// Begin with what this file says, saved in the window with its settings; options count for more
+    #[arg(long, value_name = "FILE.json")]
+    settings: Option<PathBuf>,
     /// Take triangles that cross apart first
-    #[arg(long)]
+    #[arg(long, overrides_with = "no_uncross")]
     uncross: bool,
-    /// Cut the ends square to the vessel: "round" for where each is round, or so far in: radii, or mm as in 3mm
-    #[arg(long, value_name = "WHERE", value_parser = clip_at, allow_hyphen_values = true)]
-    clip: Option<ClipAt>,
-    /// Extend each end by so many radii, or mm as in 30mm
-    #[arg(long, value_name = "LENGTH", value_parser = length, allow_hyphen_values = true)]
-    extend: Option<Length>,
-    /// Close each end: fan, planar (evenly meshed) or smooth
-    #[arg(long, value_name = "KIND", value_parser = cap_kind)]
-    cap: Option<CapKind>,
-    /// Make triangles anew, with so many edges around a vessel
-    #[arg(long, value_name = "N")]
-    remesh: Option<f64>,
-    /// The shortest edge, in mm [default: 0.1]
-    #[arg(long, value_name = "MM", requires = "remesh")]
+    #[arg(long, hide = true, overrides_with = "uncross")]
+    no_uncross: bool,
+    /// Cut the ends square to the vessel: "round" for where each is round, or so far in: radii, or mm as in 3mm; "none"
+    #[arg(long, value_name = "WHERE", value_parser = or_none(clip_at), allow_hyphen_values = true)]
+    clip: Option<Said<ClipAt>>,
+    /// Extend each end by so many radii, or mm as in 30mm; "none"
+    #[arg(long, value_name = "LENGTH", value_parser = or_none(length), allow_hyphen_values = true)]
+    extend: Option<Said<Length>>,
+    /// Close each end: fan, planar (evenly meshed), smooth or none
+    #[arg(long, value_name = "KIND", value_parser = or_none(cap_kind))]
+    cap: Option<Said<CapKind>>,
+    /// Make triangles anew, with so many edges around a vessel; "none"
+    #[arg(long, value_name = "N", value_parser = or_none(around))]
+    remesh: Option<Said<f64>>,
+    /// The shortest edge of these, in mm [default: 0.1]
+    #[arg(long, value_name = "MM")]
     least: Option<f64>,
-    /// The longest edge, in mm [default: 5]
-    #[arg(long, value_name = "MM", requires = "remesh")]
+    /// The longest edge of these, in mm [default: 5]
+    #[arg(long, value_name = "MM")]
     largest: Option<f64>,
-    /// How far the new triangles may lie from the surface where it bends, in mm
-    #[arg(long, value_name = "MM", requires = "remesh")]
+    /// How far these may lie from the surface where it bends, in mm
+    #[arg(long, value_name = "MM")]
     max_deviation: Option<f64>,
     /// What to write: stl, msh, inp, vtp, simvascular; a JSON of the patches comes with it
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format, default_value = "vtp,stl")]
@@ -58,6 +68,31 @@ pub struct Prepare {
     /// where it is not and only one would do
     #[arg(long, value_name = "UNIT")]
     unit: Option<UnitOption>,
+}
+
+/// What was said of something that can be left out.
+#[derive(Clone, Copy, Debug)]
+enum Said<T> {
+    Not,
+    So(T),
+}
+
+impl<T> Said<T> {
+    fn so(self) -> Option<T> {
+        match self {
+            Self::Not => None,
+            Self::So(value) => Some(value),
+        }
+    }
+}
+
+/// Parses "none", or what `parse` does.
+fn or_none<T>(parse: fn(&str) -> Result<T, String>) -> impl Fn(&str) -> Result<Said<T>, String> + Clone {
+    move |text| if text == "none" { Ok(Said::Not) } else { parse(text).map(Said::So) }
+}
+
+fn around(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| format!("{text} is no number of edges"))
 }
 
 /// A number of radii, or of mm where that stands behind it.
@@ -79,7 +114,7 @@ fn cap_kind(text: &str) -> Result<CapKind, String> {
         "fan" => Ok(CapKind::Fan),
         "planar" => Ok(CapKind::Planar),
         "smooth" => Ok(CapKind::Smooth),
-        _ => Err(format!("{text} is no kind of cap; there are fan, planar, smooth")),
+        _ => Err(format!("{text} is no kind of cap; there are fan, planar, smooth, none")),
     }
 }
 
@@ -102,8 +137,18 @@ impl Prepare {
         interrupt::listen()?;
         let Imported { mesh, .. } = source::read_with(&self.file, self.unit, &Default::default())?;
         let before = mesh.triangles.len();
-        let found = prepare(&mesh, &plan).map_err(|error| anyhow!("the surface cannot be prepared: {error}"))?;
-        interrupt::check()?;
+        let found = {
+            let mut running = Running::new(|yielder| async move { prepare(&mesh, &plan, &yielder).await });
+            let bar = progress_bar("Preparing")?;
+            loop {
+                interrupt::check()?;
+                match running.advance(Budget::new(Duration::from_millis(50))) {
+                    Progress::Working(fraction) => bar.set_position((fraction * 1000.0) as u64),
+                    Progress::Done(found) => break found,
+                }
+            }
+        };
+        let found = found.map_err(|error| anyhow!("the surface cannot be prepared: {error}"))?;
         let mut files = vec![(format!("{stem}.json"), summary(&found)?)];
         for format in &self.format {
             files.extend(format.written(&found.surface, &stem)?);
@@ -123,17 +168,31 @@ impl Prepare {
     }
 
     fn plan(&self) -> Result<Plan> {
-        let remesh = self.remesh.map(|around| {
-            let default = Sizing::default();
-            Sizing {
-                around,
-                least_mm: self.least.unwrap_or(default.least_mm),
-                largest_mm: self.largest.unwrap_or(default.largest_mm),
-                max_deviation_mm: self.max_deviation,
-                ..default
+        let begun = self.settings.as_deref().map(read).transpose()?.unwrap_or_default();
+        let mut plan = Plan {
+            uncross: (begun.uncross || self.uncross) && !self.no_uncross,
+            clip: self.clip.map_or(begun.clip, Said::so),
+            extend: self.extend.map_or(begun.extend, Said::so),
+            cap: self.cap.map_or(begun.cap, Said::so),
+            remesh: match self.remesh {
+                Some(said) => said.so().map(|around| Sizing { around, ..begun.remesh.unwrap_or_default() }),
+                None => begun.remesh,
+            },
+        };
+        match &mut plan.remesh {
+            Some(sizing) => {
+                sizing.least_mm = self.least.unwrap_or(sizing.least_mm);
+                sizing.largest_mm = self.largest.unwrap_or(sizing.largest_mm);
+                sizing.max_deviation_mm = self.max_deviation.or(sizing.max_deviation_mm);
+                sizing.check().map_err(misuse)?;
             }
-        });
-        let plan = Plan { uncross: self.uncross, clip: self.clip, extend: self.extend, cap: self.cap, remesh };
+            None if self.least.is_some() || self.largest.is_some() || self.max_deviation.is_some() => {
+                return Err(misuse(
+                    "--least, --largest and --max-deviation are of triangles that are made anew: say --remesh",
+                ));
+            }
+            None => {}
+        }
         if plan == Plan::default() {
             return Err(misuse("nothing is asked for: say --uncross, --clip, --extend, --cap or --remesh"));
         }
@@ -146,6 +205,14 @@ impl Prepare {
         std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
         write_whole(&path, bytes)
     }
+}
+
+/// What a settings file says of a solver.
+fn read(path: &Path) -> Result<Plan> {
+    let name = || path.display().to_string();
+    let bytes = std::fs::read(path).with_context(|| format!("cannot read {}", name()))?;
+    let (_, Beside { solver, .. }) = read_settings_and(&bytes).with_context(name)?;
+    solver.ok_or_else(|| misuse(format!("{} says nothing of a solver", name())))
 }
 
 /// The patches, what a volume mesher would say, and what was done otherwise than asked for.
@@ -173,8 +240,8 @@ fn print(found: &Prepared, before: usize, folder: &Path) {
     for patch in &found.surface.patches {
         row(&patch.name, format!("{:.2} mm2, id {}", patch.area_mm2, patch.id));
     }
-    if let Some(uncrossed) = &found.uncrossed {
-        row("triangles that crossed", format!("{}, {} left", uncrossed.crossing_before, uncrossed.crossing_after));
+    if let Some([before, after]) = found.crossing {
+        row("triangles that crossed", format!("{before}, {after} left"));
     }
     if let Some((quality, deviation)) = found.remeshed {
         row(
@@ -196,5 +263,5 @@ fn print(found: &Prepared, before: usize, folder: &Path) {
     for finding in &found.fate.findings {
         eprintln!("lumen: warning: {}", finding.fault);
     }
-    println!("Not for clinical decisions.");
+    println!("{DISCLAIMER}");
 }

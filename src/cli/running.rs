@@ -31,11 +31,19 @@ pub(super) fn run_through(
     advance(pipeline)
 }
 
-/// Runs all stages and shows how far they are, on standard error.
-pub(super) fn advance(pipeline: &mut Pipeline) -> Result<()> {
+/// A bar of a thousand on standard error, where that is a terminal.
+pub(super) fn progress_bar(what: &'static str) -> Result<ProgressBar> {
     let is_terminal = std::io::stderr().is_terminal();
     let bar = if is_terminal { ProgressBar::new(1000) } else { ProgressBar::hidden() };
     bar.set_style(ProgressStyle::with_template("{msg:<24} {wide_bar} {percent:>3} %")?);
+    bar.set_message(what);
+    Ok(bar)
+}
+
+/// Runs all stages and shows how far they are, on standard error.
+pub(super) fn advance(pipeline: &mut Pipeline) -> Result<()> {
+    let is_terminal = std::io::stderr().is_terminal();
+    let bar = progress_bar("")?;
     loop {
         interrupt::check()?;
         match pipeline.advance(Budget::new(Duration::from_millis(50)))? {

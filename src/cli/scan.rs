@@ -10,7 +10,7 @@ use super::misuse::misuse;
 use super::rows::row;
 use super::scan_options::{ScanOptions, SurfaceMethod};
 use crate::io::volume::{self, Part};
-use crate::io::{Axes, Imported, Offer, ReadError, ThresholdReport, Warning, import_mesh, in_english};
+use crate::io::{Axes, Imported, LabelName, Offer, ReadError, ThresholdReport, Warning, import_mesh, in_english};
 use crate::task::{Yielder, at_once};
 use crate::volume::{
     Cut, Grid, HalfWay, Label, LabelledSurface, Method, PRESETS, Relaxation, Selection, Survey, VolumeError, half_way,
@@ -40,7 +40,7 @@ pub(super) struct Opened {
     warnings: Vec<Warning>,
     offers: Vec<Offer>,
     taken: usize,
-    names: Vec<(i64, String)>,
+    names: Vec<LabelName>,
 }
 
 /// What is in a volume. The field names are the keys of the JSON that `lumen inspect` prints.
@@ -77,13 +77,16 @@ struct Choice<'a> {
     value: &'a str,
 }
 
-/// A label with its name, if the file has one.
+/// A label with its name and its colour, as far as the file has them.
 #[derive(Serialize)]
 struct NamedLabel<'a> {
     #[serde(flatten)]
     label: Label,
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<&'a str>,
+    /// Red, green and blue of sRGB.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    colour: Option<[u8; 3]>,
 }
 
 /// Opens the volume in the files or the folder of those names; `None` where the only one is a file that is none.
@@ -178,8 +181,8 @@ impl Opened {
 
     fn labels(&self) -> impl Iterator<Item = NamedLabel<'_>> {
         self.survey.labels.iter().map(|&label| {
-            let named = self.names.iter().find(|(value, _)| *value == label.value);
-            NamedLabel { label, name: named.map(|(_, name)| name.as_str()) }
+            let named = self.names.iter().find(|named| named.value == label.value);
+            NamedLabel { label, name: named.map(|named| &*named.name), colour: named.and_then(|named| named.colour) }
         })
     }
 
@@ -233,9 +236,10 @@ impl Opened {
         row("type", self.grid.samples().sample_type().name());
         row("range", format!("{low} to {high}{}", if self.is_ct { " HU" } else { "" }));
         if self.survey.is_mask() {
-            let labels = self.labels().map(|NamedLabel { label: Label { value, points }, name }| match name {
-                Some(name) => format!("{value} {name} ({points} voxels)"),
-                None => format!("{value} ({points} voxels)"),
+            let labels = self.labels().map(|NamedLabel { label: Label { value, points }, name, colour }| {
+                let name = name.map_or_else(String::new, |name| format!(" {name}"));
+                let colour = colour.map_or_else(String::new, |[r, g, b]| format!(", #{r:02x}{g:02x}{b:02x}"));
+                format!("{value}{name} ({points} voxels{colour})")
             });
             row("labels", labels.collect::<Vec<_>>().join(", "));
         } else if self.is_ct || self.survey.has_air() {

@@ -13,6 +13,7 @@ use super::running::advance;
 use super::trial::{SMOOTHING, settings, surface, wire};
 use super::{interrupt, places};
 use crate::io::Unit;
+use crate::pipeline::report::DISCLAIMER;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Target;
 use crate::report::{svg_file, sweep_plot};
@@ -49,8 +50,6 @@ pub struct Sweep {
     #[arg(long, value_name = "UNIT")]
     unit: Option<Unit>,
 }
-
-const NOTICE: &str = "Not for clinical decisions.";
 
 impl Sweep {
     /// Runs the trials.
@@ -100,7 +99,7 @@ impl Sweep {
         if let Some(path) = &self.plot {
             write_whole(path, svg_file(&sweep_plot(&self.file, &rows)).as_bytes())?;
         }
-        println!("{NOTICE}");
+        println!("{DISCLAIMER}");
         interrupt::check()
     }
 }
@@ -123,7 +122,7 @@ fn line(rate: f64, row: &SweepRow) -> String {
 
 /// A row for each rate; medians and the largest of the seeds.
 fn csv(rows: &[(f64, SweepRow)]) -> Result<Vec<u8>> {
-    let mut table = csv::Writer::from_writer(format!("# {}\n", NOTICE.to_lowercase()).into_bytes());
+    let mut table = csv::Writer::from_writer(format!("# {}\n", DISCLAIMER.to_lowercase()).into_bytes());
     let quantities = ["deviation_mm", "noise_mm", "peak_force_n", "mean_force_n", "time_s"];
     let of_each = quantities.iter().flat_map(|name| [format!("{name}_median"), format!("{name}_max")]);
     let heads = ["rate_percent", "triangles", "seeds", "arrived"].map(str::to_owned);

@@ -11,6 +11,7 @@ use super::options::percent;
 use super::places::write_whole;
 use super::rows::row;
 use super::running::advance;
+use super::serve::serve;
 use super::{places, source};
 use crate::io::Unit;
 use crate::mesh::TriMesh;
@@ -74,6 +75,9 @@ pub struct Trial {
     /// The unit of the numbers in the file: mm, cm or m
     #[arg(long, value_name = "UNIT")]
     unit: Option<Unit>,
+    /// Let another program hold the wire, by lines of JSON on standard input and output
+    #[arg(long, conflicts_with_all = ["log", "json"])]
+    serve: bool,
 }
 
 /// Pass band and iterations. The paper's 0.01 and 100 draw coronary arteries shut (docs/benchmarks/calibre.md); these take the
@@ -136,6 +140,9 @@ impl Trial {
         let mut pipeline = Pipeline::new(opened, settings).without_measures();
         advance(&mut pipeline)?;
         let mesh = pipeline.reduced().context("the pipeline ended without a result")?.mesh.clone();
+        if self.serve {
+            return serve(&mesh, sample, setup, self.element, std::io::stdin().lock(), std::io::stdout().lock());
+        }
         let run = trial(&mesh, sample, setup, self.element, true)?;
         let summary = run.summary();
         if let Some(path) = &self.log {
@@ -179,16 +186,14 @@ pub(super) fn wire(name: Option<&str>) -> Result<Wire> {
     })
 }
 
-/// Runs the autopilot on a surface to the end, the wire in elements of `element` mm if that is asked for, and with other wires
-/// after it if that is.
-pub(super) fn trial(
-    mesh: &Arc<TriMesh>,
-    sample: Option<Sample>,
-    mut setup: Setup,
-    element: Option<f64>,
-    exchanges: bool,
-) -> Result<Run> {
+/// The way of a setup, and the setup with what it proposes.
+pub(super) fn led(mesh: &Arc<TriMesh>, sample: Option<Sample>, mut setup: Setup) -> Result<(Arc<Course>, Setup)> {
     let course = Course::new(mesh, sample, &mut setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
+    Ok((Arc::new(course), setup))
+}
+
+/// A trial from the start, the wire in elements of `element` mm if that is asked for, and with other wires after it if that is.
+pub(super) fn begun((course, mut setup): (Arc<Course>, Setup), element: Option<f64>, exchanges: bool) -> Result<Run> {
     // Wires that are proposed come with their own.
     if let Some(element) = element {
         std::iter::once(&mut setup.wire).chain(&mut setup.next_wires).for_each(|wire| wire.elements_mm = [element; 2]);
@@ -196,7 +201,18 @@ pub(super) fn trial(
     if !exchanges {
         setup.next_wires.clear();
     }
-    let mut run = Run::new(Arc::new(course), setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
+    Run::new(course, setup).map_err(|error| anyhow!("no trial is possible: {error}"))
+}
+
+/// Runs the autopilot on a surface to the end; the rest as [`begun`] has it.
+pub(super) fn trial(
+    mesh: &Arc<TriMesh>,
+    sample: Option<Sample>,
+    setup: Setup,
+    element: Option<f64>,
+    exchanges: bool,
+) -> Result<Run> {
+    let mut run = begun(led(mesh, sample, setup)?, element, exchanges)?;
     run.set_autopilot(true);
     run.finish();
     Ok(run)

@@ -67,6 +67,18 @@ impl Current {
         }
     }
 
+    /// The same with nothing under way.
+    pub(super) fn fork(&self) -> Self {
+        Self {
+            name: self.name.clone(),
+            origin: self.origin.clone(),
+            pipeline: self.pipeline.fork(),
+            told: self.told.clone(),
+            waiting: None,
+            ..*self
+        }
+    }
+
     /// Whether the arrays of the level are still on their way to it: a file of it waits for them.
     pub(super) fn is_carrying(&self) -> bool {
         let is_coming = self.waiting.is_some() || self.pipeline.level_arrays().is_none();

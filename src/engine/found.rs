@@ -13,6 +13,10 @@ use crate::pipeline::histogram::Histogram;
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::Keep;
+use crate::prepare::Patch;
+use crate::prepare::check::Fate;
+use crate::prepare::notes::{Note, PrepareError};
+use crate::prepare::remesh::{Deviation as SolverDeviation, Quality};
 use crate::sharing::Digest;
 use crate::transfer::bulk;
 use crate::vessel::certificate::{CalibreError, Certificate};
@@ -46,6 +50,36 @@ pub struct Reduced {
     pub mesh: Arc<ProgressiveMesh>,
     /// How many nodes the finest of them uses.
     pub vertices: usize,
+}
+
+/// What came of making a surface ready for a solver.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SolverReady {
+    /// That of the command.
+    pub id: u64,
+    /// The surface, or why there is none.
+    pub outcome: Result<Ready, PrepareError>,
+}
+
+/// A surface in patches, and what there is to say of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ready {
+    /// The surface.
+    #[serde(with = "surface")]
+    pub mesh: Arc<TriMesh>,
+    /// For each triangle the place of its patch.
+    #[serde(with = "bulk")]
+    pub of_triangle: Vec<u32>,
+    /// The patches, the wall first.
+    pub patches: Vec<Patch>,
+    /// What a volume mesher would say.
+    pub fate: Fate,
+    /// What was done otherwise than asked for.
+    pub notes: Vec<Note>,
+    /// Triangles that crossed before and after they were taken apart, where that was asked for.
+    pub crossing: Option<[usize; 2]>,
+    /// Shape and deviation of the triangles, where they were made anew.
+    pub remeshed: Option<(Quality, SolverDeviation)>,
 }
 
 /// What a level makes of the vessels.

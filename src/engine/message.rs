@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::found::{Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, LevelArrays, Opened, Reduced};
+use super::found::{
+    Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, LevelArrays, Opened, Reduced, SolverReady,
+};
 use super::source::Source;
 use super::surfaces::surface;
 use crate::io::{Axes, Format};
@@ -16,6 +18,8 @@ use crate::pipeline::report::Report;
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
+use crate::prepare::prepare::Plan;
+use crate::prepare::write::SolverFormat;
 use crate::report::{Heading, ReportFormat};
 use crate::say;
 use crate::sharing::measures::Measure;
@@ -69,6 +73,27 @@ pub enum Command {
         id: u64,
         /// From 0.
         passes: u32,
+    },
+    /// Make a surface ready for a solver, in place of what was asked for so before. Forgotten by a cancel.
+    Prepare {
+        /// Comes back with the answer; counted with the generations.
+        id: u64,
+        /// The surface.
+        #[serde(with = "surface")]
+        mesh: Arc<TriMesh>,
+        /// What is done to it.
+        plan: Plan,
+    },
+    /// Turn the surface that was made ready last into a file.
+    WriteSolver {
+        /// That of the command that made it.
+        id: u64,
+        /// The name of the file, with extension.
+        name: String,
+        /// Its format, one of a single file.
+        format: SolverFormat,
+        /// The names of the patches, the wall first.
+        names: Vec<String>,
     },
     /// Stop, and go back to the last result; nothing goes on until there are other settings.
     Cancel,
@@ -154,6 +179,8 @@ pub enum Work {
     Stage(Stage),
     /// The pipeline at several settings.
     Comparing,
+    /// Making a level ready for a solver.
+    Preparing,
 }
 
 impl Work {
@@ -163,6 +190,7 @@ impl Work {
             Self::Reading => say!("panel-work-reading"),
             Self::Stage(stage) => tell(&stage),
             Self::Comparing => say!("panel-work-comparing"),
+            Self::Preparing => say!("solver-work"),
         }
     }
 
@@ -242,6 +270,8 @@ pub enum Event {
     },
     /// One of the settings to compare is done with.
     Compared(Box<Compared>),
+    /// A surface is ready for a solver, or cannot be made so.
+    Prepared(Box<SolverReady>),
     /// How far a compared surface is from the first.
     Differed(Box<Differed>),
     /// The surface that is open, smoothed by plain Laplacian passes.
@@ -302,6 +332,7 @@ mod tests {
         let bad = Source::File { name: "b.stl".into(), bytes: Arc::new(vec![0; 3]), options: ImportOptions::default() };
         let sphere = crate::mesh::shapes::icosphere(1, 30.0, glam::Vec3::ZERO);
         let small = Arc::new(sphere.clone());
+        let tube = Arc::new(crate::mesh::shapes::tube(24, 40, 40.0, |_| 2.0));
         let made = Source::Made {
             name: "d".into(),
             format: "DICOM".into(),
@@ -346,22 +377,29 @@ mod tests {
             Command::Compare { id: 4, settings: vec![settings.clone(), impossible] },
             Command::Differ { id: 8, first: small.clone(), other: small },
             Command::Average { id: 9, passes: 3 },
+            Command::Prepare { id: 10, mesh: tube, plan: Plan::flow() },
+            Command::WriteSolver { id: 10, name: "c.msh".into(), format: SolverFormat::Msh, names: vec!["w".into()] },
             Command::Cancel,
             Command::Open { id: 6, source: made, settings: settings.clone() },
             Command::Open { id: 5, source: Source::sample(Sample::Coronary), settings },
         ];
         let mut kinds = std::collections::BTreeSet::new();
         for command in commands {
-            assert_eq!(sent(&command).1.unwrap(), command);
+            let (head, arrived) = sent(&command);
+            assert_eq!(arrived.unwrap(), command);
+            // A test in the browser watches for these two (responsiveness.test.mjs).
+            assert_eq!(head == [7], command == Command::Cancel);
             if matches!(command, Command::Open { id: 5, .. }) {
                 break;
             }
             engine.handle(command);
             while engine.advance(Duration::from_millis(1)) {}
             while let Some(event) = engine.poll() {
-                let (line, arrived) = sent(&event);
-                kinds.insert(line.split('"').nth(1).unwrap_or_default().to_owned());
+                let text = format!("{event:?}");
+                kinds.insert(text.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default().to_owned());
+                let (head, arrived) = sent(&event);
                 assert_eq!(arrived.unwrap(), event);
+                assert_eq!(head.first() == Some(&11), matches!(event, Event::Cancelled { .. }));
             }
         }
         let expected = [
@@ -377,6 +415,7 @@ mod tests {
             "OpenFailed",
             "Opened",
             "Pieces",
+            "Prepared",
             "Reduced",
             "Written",
         ];

@@ -9,7 +9,7 @@
 //!   `surfaces`: how the surfaces in them cross; `link`: the line.
 //! - `pipeline_engine`: what is asked, in its order; `current`: the surface that is open; `opening`: a source on its way
 //!   in; `compare`: settings to compare ([`Command::Compare`]), which are worked on while nothing else is to be done;
-//!   `differing`: how far two of them are apart; `averaging`: plain Laplacian smoothing, to be seen beside the filter;
+//!   `differing`: how far two of them are apart; `preparing`: a level made ready for a solver; `averaging`: plain Laplacian smoothing, to be seen beside the filter;
 //!   `progress`: how far all this is.
 //! - [`trial`]: the guidewire trial, an engine of its own on a line of its own. It keeps pace with the clock.
 //! - [`scan`]: scans and masks, an engine of its own as well; the surface that it makes is opened as [`Source::Made`].
@@ -26,6 +26,7 @@ mod machine;
 mod message;
 mod opening;
 mod pipeline_engine;
+mod preparing;
 mod progress;
 mod record;
 pub mod scan;
@@ -34,7 +35,9 @@ mod surfaces;
 pub mod trial;
 
 pub use self::current::PATIENCE;
-pub use self::found::{Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, LevelArrays, Opened, Reduced};
+pub use self::found::{
+    Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, LevelArrays, Opened, Ready, Reduced, SolverReady,
+};
 pub use self::link::Link;
 pub use self::machine::{Machine, SLICE};
 pub use self::message::{Command, Event, Frame, Work};

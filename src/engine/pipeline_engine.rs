@@ -13,6 +13,7 @@ use super::found::Opened;
 use super::machine::{Machine, SLICE};
 use super::message::{Command, Event, Work};
 use super::opening::{Opening, Read};
+use super::preparing::{Preparing, written};
 use super::progress::tell_progress;
 use super::record::{self, Animation, Asked, Origin};
 use super::source::Source;
@@ -22,6 +23,7 @@ use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Settings;
+use crate::prepare::Patched;
 use crate::say;
 use crate::task::{Budget, Progress, milliseconds};
 use crate::vessel::CentrelineFormat;
@@ -43,6 +45,10 @@ pub struct Engine {
     differing: Option<Differing>,
     /// Plain Laplacian smoothing, to be seen beside the filter.
     averaging: Option<Averaging>,
+    /// A surface on its way to a solver.
+    preparing: Option<Preparing>,
+    /// The one that is ready, and the number of the command that asked for it.
+    prepared: Option<(u64, Patched)>,
     writing: VecDeque<Writing>,
     animation: Animation,
     events: VecDeque<Event>,
@@ -61,6 +67,12 @@ impl Engine {
     /// An engine with nothing open.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// Another engine with the same surface open, and all that this one, which is at rest, has made of it: shared, not copied.
+    #[must_use]
+    pub fn fork(&self) -> Self {
+        Self { current: self.current.as_ref().map(Current::fork), ..Self::default() }
     }
 
     /// Takes a command. Nothing long happens here, but for a report and a frame of a picture: some tens of milliseconds.
@@ -83,6 +95,14 @@ impl Engine {
             }
             Command::Differ { id, first, other } => self.differing = Some(Differing::new(id, first, other)),
             Command::Average { id, passes } => self.averaging = Some(Averaging::new(id, passes)),
+            Command::Prepare { id, mesh, plan } => self.preparing = Some(Preparing::new(id, mesh, plan)),
+            Command::WriteSolver { id, name, format, names } => {
+                let ready = self.prepared.as_ref().filter(|(of, _)| *of == id).ok_or_else(|| say!("errors-no-result"));
+                self.events.push_back(match ready.and_then(|(_, surface)| written(surface, names, format)) {
+                    Ok(bytes) => Event::Written { name, bytes, left_out: None },
+                    Err(message) => Event::NotWritten { name, message },
+                });
+            }
             Command::Cancel => self.cancel(),
             Command::WriteCentrelines { name, format } => self.write_centrelines(name, format),
             Command::WriteLevel { name, format } => self.write_level(name, format),
@@ -101,7 +121,7 @@ impl Engine {
     fn cancel(&mut self) {
         self.opening.clear();
         self.reading = None;
-        (self.comparing, self.differing) = (None, None);
+        (self.comparing, self.differing, self.preparing) = (None, None, None);
         if let Some(current) = &mut self.current {
             current.waiting = None;
             current.pipeline.cancel();
@@ -128,9 +148,7 @@ impl Engine {
             self.write(writing);
         } else if self.is_opening() {
             self.open(budget);
-        } else if (self.comparing.is_some() || self.differing.is_some() || self.averaging.is_some())
-            && self.current.as_ref().is_some_and(Current::is_in_background)
-        {
+        } else if self.is_asked_more() && self.current.as_ref().is_some_and(Current::is_in_background) {
             // What a user waits for goes before what nobody asked for.
             self.compare(budget);
         } else if let Some(current) = &mut self.current {
@@ -151,13 +169,22 @@ impl Engine {
         self.is_opening() || self.current.is_some() || !self.writing.is_empty()
     }
 
-    /// Goes on with plain Laplacian smoothing, then with the settings to compare, then with how far apart two surfaces are;
-    /// whether there is more to do.
+    /// Whether something beside the settings in force is asked for.
+    fn is_asked_more(&self) -> bool {
+        self.preparing.is_some() || self.comparing.is_some() || self.differing.is_some() || self.averaging.is_some()
+    }
+
+    /// Goes on with a surface for a solver, then with plain Laplacian smoothing, then with the settings to compare, then with
+    /// how far apart two surfaces are; whether there is more to do.
     fn compare(&mut self, budget: Budget) -> bool {
         let Some(current) = &self.current else { return false };
         let events = &mut self.events;
         let can_average = current.pipeline.kept().is_some();
-        if let Some(averaging) = self.averaging.as_mut().filter(|_| can_average) {
+        if let Some(preparing) = &mut self.preparing {
+            if !preparing.advance(budget, &mut self.prepared, events) {
+                self.preparing = None;
+            }
+        } else if let Some(averaging) = self.averaging.as_mut().filter(|_| can_average) {
             if !averaging.advance(&current.pipeline, budget, events) {
                 self.averaging = None;
             }
@@ -168,7 +195,10 @@ impl Engine {
         } else {
             self.differing.take_if(|differing| !differing.advance(budget, events));
         }
-        self.comparing.is_some() || self.differing.is_some() || can_average && self.averaging.is_some()
+        self.comparing.is_some()
+            || self.differing.is_some()
+            || self.preparing.is_some()
+            || can_average && self.averaging.is_some()
     }
 
     /// The next event.
@@ -269,6 +299,7 @@ impl Engine {
         self.comparing.take_if(|comparing| comparing.id < id);
         self.differing.take_if(|differing| differing.id < id);
         self.averaging.take_if(|averaging| averaging.id < id);
+        self.preparing.take_if(|preparing| preparing.id < id);
         let origin = Origin { digest, import: report.clone(), has_units };
         self.current = Some(Current::new(id, name.clone(), origin, pipeline, milliseconds(since)));
         // What came meanwhile is newer.

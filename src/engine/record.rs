@@ -11,7 +11,7 @@ use crate::sharing::Digest;
 use crate::sharing::measures::Measure;
 
 /// What is known of the surface that is open beside what the pipeline knows.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Origin {
     /// The hash of its file; none of a sample.
     pub(super) digest: Option<Digest>,

@@ -69,7 +69,7 @@ pub enum Found {
         /// The vessel: "branch 1".
         vessel: String,
         /// Whether it lies at a fork, where the plane cuts more than one vessel.
-        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        #[serde(default)]
         at_fork: bool,
     },
     /// The angle at the second of three places.

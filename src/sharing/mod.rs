@@ -19,7 +19,7 @@ pub use digest::{Digest, Digesting, NoDigest, ShortDigest};
 pub use eye::Eye;
 pub use link::{Link, LinkError, SharedSurface, changed_settings};
 pub use settings_file::{
-    Measured, SettingsFileError, read_settings, read_settings_and, write_settings, write_settings_and,
+    Beside, Measured, SettingsFileError, read_settings, read_settings_and, write_settings, write_settings_and,
 };
 
 /// All that a user can set and that changes the result.

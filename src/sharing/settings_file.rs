@@ -1,6 +1,6 @@
 //! The settings as a file: JSON with a version, read and written by the window and the command line alike.
 //!
-//! Measures stand beside them, with what the surface is known by that they were made on.
+//! Measures stand beside them, with what the surface is known by that they were made on, and what is done for a solver.
 //!
 //! A field that Lumen does not know is refused, not left out: it was meant to change the result. A switch that is left
 //! out is off; everything else has to be there, so that the file says the same whatever a later version's defaults are.
@@ -13,6 +13,8 @@ use super::measures::{Measure, are_sound};
 use crate::io::Unit;
 use crate::language::tell;
 use crate::pipeline::settings::{Settings, SettingsError};
+use crate::prepare::notes::PrepareError;
+use crate::prepare::prepare::Plan;
 use crate::say;
 
 /// What stands first in the file.
@@ -42,6 +44,9 @@ pub enum SettingsFileError {
     /// A number is out of range.
     #[error("{}", say!("app-settings-range", why = tell(.0)))]
     Range(#[from] SettingsError),
+    /// A length for a solver is none.
+    #[error("{}", say!("app-settings-range", why = tell(.0)))]
+    Solver(#[from] PrepareError),
     /// A measure is not one.
     #[error("{}", say!("app-measures-unsound"))]
     Measures,
@@ -63,6 +68,17 @@ struct File {
     settings: Settings,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     measured: Option<Measured>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    solver: Option<Plan>,
+}
+
+/// What stands beside the settings where there is some.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Beside {
+    /// What was measured.
+    pub measured: Option<Measured>,
+    /// What is done to the level for a solver.
+    pub solver: Option<Plan>,
 }
 
 /// Measures, and the surface that they were made on.
@@ -77,13 +93,14 @@ pub struct Measured {
 
 /// The settings as the text of a file.
 pub fn write_settings(shared: &SharedSettings) -> String {
-    write_settings_and(shared, None)
+    write_settings_and(shared, Beside::default())
 }
 
-/// The settings and what was measured as the text of a file.
-pub fn write_settings_and(shared: &SharedSettings, measured: Option<Measured>) -> String {
+/// The settings and what stands beside them as the text of a file.
+pub fn write_settings_and(shared: &SharedSettings, beside: Beside) -> String {
     let SharedSettings { unit, settings } = shared.clone();
-    let file = File { format: FORMAT.to_owned(), version: VERSION, unit, settings, measured };
+    let Beside { measured, solver } = beside;
+    let file = File { format: FORMAT.to_owned(), version: VERSION, unit, settings, measured, solver };
     // Nothing in it can fail: there are no maps, and every number that `Settings::check` lets through is finite.
     serde_json::to_string_pretty(&file).unwrap_or_default() + "\n"
 }
@@ -96,11 +113,11 @@ pub fn read_settings(bytes: &[u8]) -> Result<SharedSettings, SettingsFileError> 
     Ok(read_settings_and(bytes)?.0)
 }
 
-/// Reads the settings and what was measured, if anything was.
+/// Reads the settings and what stands beside them.
 ///
 /// # Errors
 /// As [`read_settings`].
-pub fn read_settings_and(bytes: &[u8]) -> Result<(SharedSettings, Option<Measured>), SettingsFileError> {
+pub fn read_settings_and(bytes: &[u8]) -> Result<(SharedSettings, Beside), SettingsFileError> {
     if bytes.len() > LONGEST {
         return Err(SettingsFileError::NoSettings);
     }
@@ -111,12 +128,16 @@ pub fn read_settings_and(bytes: &[u8]) -> Result<(SharedSettings, Option<Measure
     if head.version > VERSION {
         return Err(SettingsFileError::Newer { found: head.version, known: VERSION });
     }
-    let File { unit, settings, measured, .. } = serde_json::from_slice(bytes).map_err(SettingsFileError::Field)?;
+    let File { unit, settings, measured, solver, .. } =
+        serde_json::from_slice(bytes).map_err(SettingsFileError::Field)?;
     settings.check()?;
+    if let Some(plan) = &solver {
+        plan.check()?;
+    }
     if measured.as_ref().is_some_and(|measured| !are_sound(&measured.measures)) {
         return Err(SettingsFileError::Measures);
     }
-    Ok((SharedSettings { unit, settings }, measured))
+    Ok((SharedSettings { unit, settings }, Beside { measured, solver }))
 }
 
 #[cfg(test)]
@@ -167,10 +188,15 @@ mod tests {
         let ruler = Found::Ruler { ends_mm: [[0.0; 3], [1.0, 2.0, 2.0]] };
         let measures = vec![of("Section 1", section), of("Neck", ruler)];
         let measured = Measured { of: "ba7816bf8f01cfea".to_owned(), measures };
-        let text = write_settings_and(&SharedSettings::default(), Some(measured.clone()));
+        let beside = Beside { measured: Some(measured), solver: Some(Plan::flow()) };
+        let text = write_settings_and(&SharedSettings::default(), beside.clone());
         let (shared, read) = read_settings_and(text.as_bytes()).unwrap();
-        assert_eq!((shared, read), (SharedSettings::default(), Some(measured)));
+        assert_eq!((shared, read), (SharedSettings::default(), beside));
         assert_eq!(read_settings(text.as_bytes()).unwrap(), SharedSettings::default(), "for whoever asks for no more");
+        let negative = text.replace("\"radii\": 5.0", "\"radii\": -5.0");
+        assert!(matches!(read_settings(negative.as_bytes()), Err(SettingsFileError::Solver(_))), "{negative}");
+        let unknown = text.replace("\"around\"", "\"about\"");
+        assert!(matches!(read_settings(unknown.as_bytes()), Err(SettingsFileError::Field(_))));
         let long = text.replace("Neck", &"x".repeat(100));
         assert!(matches!(read_settings(long.as_bytes()), Err(SettingsFileError::Measures)));
     }

@@ -284,7 +284,8 @@ test("without a device the virtual one holds the wire, its axes are remembered, 
   await eventually(feeds, (axis) => axis === "X", { what: "the axis that is proposed" });
   await eventually(kept, (is) => !is, { what: "nothing of it in what is kept" });
 
-  // A gamepad shakes by the force once it is armed, and is still as the window is left.
+  // A gamepad shakes by the force once it is armed, and is still as the window is left. Browsers tell of it so.
+  await page.evaluate(() => dispatchEvent(new Event("gamepadconnected")));
   const shakes = () => page.evaluate(() => globalThis.shaken.filter((it) => it !== "reset"));
   await find(page, "button", "Arm rumble...");
   assert.deepEqual(await shakes(), [], "nothing before it is armed");

@@ -73,17 +73,18 @@ function moveAround(page, count, pattern = "") {
 
 /** Runs in the page before the app: marks the large messages to and from the Workers, for the trace. */
 function markMessages() {
-  const name = (message) => /^\{"(\w+)"/.exec(message?.[0])?.[1];
+  const kind = (message) => new Uint8Array(message[0])[0];
   const large = (message) => Array.isArray(message) && message.slice(1).some((buffer) => buffer.byteLength > 1e6);
   const Plain = Worker;
   window.Worker = class extends Plain {
     constructor(...all) {
       super(...all);
-      this.addEventListener("message", ({ data }) => large(data) && performance.mark(`arrival: ${name(data)}`));
+      this.addEventListener("message", ({ data }) => large(data) && performance.mark(`arrival: ${kind(data)}`));
     }
     postMessage(message, ...rest) {
-      if (message?.[0] === '"Cancel"') window.cancelSent = performance.timeOrigin + performance.now();
-      if (large(message)) performance.mark(`departure: ${name(message)}`);
+      // The place of `Cancel`, which has no fields, as src/engine/message.rs tests it.
+      if (message?.[0]?.byteLength === 1 && kind(message) === 7) window.cancelSent = performance.timeOrigin + performance.now();
+      if (large(message)) performance.mark(`departure: ${kind(message)}`);
       return super.postMessage(message, ...rest);
     }
   };
@@ -206,7 +207,8 @@ async function step(page) {
 function watchCancelHeard() {
   const post = self.postMessage;
   self.postMessage = (message, ...rest) => {
-    if (message?.[0]?.startsWith?.('{"Cancelled"')) self.cancelHeard = performance.timeOrigin + performance.now();
+    // The place of `Cancelled`, as src/engine/message.rs tests it.
+    if (message?.[0]?.byteLength > 0 && new Uint8Array(message[0])[0] === 11) self.cancelHeard = performance.timeOrigin + performance.now();
     return post.call(self, message, ...rest);
   };
 }

@@ -17,6 +17,9 @@ test("the app draws with WebGPU where there is one, and with WebGL2 when it is a
     assert.equal(await contextKind(page), expected);
     // Its card is as far from the background as what counts as drawn.
     await press(page, "button", "Close the invitation");
+    const card = twin(page, "button", "Close the invitation");
+    await eventually(() => card.count(), (count) => count === 0, { timeout: 60_000, what: "the card to be gone" });
+    await frames(page, 3);
     pixels[expected] = await silhouette(page, views.shaded(page));
     assert.deepEqual(wrong, []);
     await page.close();

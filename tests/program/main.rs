@@ -12,6 +12,7 @@ mod program;
 mod report;
 #[cfg(feature = "scans")]
 mod scans;
+mod serve;
 mod settings;
 mod tables;
 #[cfg(not(feature = "scans"))]

@@ -1,7 +1,11 @@
 //! `lumen prepare`: what is written for solvers.
 
 use std::collections::BTreeSet;
+use std::f64::consts::PI;
 use std::path::Path;
+
+use lumen::prepare::prepare::Plan;
+use lumen::sharing::{Beside, SharedSettings, write_settings_and};
 
 use crate::program::{Folder, json, lumen, succeed};
 
@@ -85,7 +89,7 @@ fn what_has_no_end_is_told_and_what_was_closed_is_closed_again() {
     write(&tube, &lumen::mesh::shapes::capped(24, 30, 30.0, 2.0));
     let out = folder.file("out");
     let told = lumen(&["prepare", &ball, "--cap", "planar", "-o", &out]);
-    assert!(told.status.success() && String::from_utf8_lossy(&told.stderr).contains("no end was found"), "{told:?}");
+    assert!(told.status.success() && String::from_utf8_lossy(&told.stderr).contains("No end was found"), "{told:?}");
     succeed(&["prepare", &tube, "--extend", "5", "-o", &out]);
     let patches = json(&format!("{out}/tube.json"));
     assert_eq!((patches["is_ready"].as_bool(), patches["patches"].as_array().unwrap().len()), (Some(true), 3));
@@ -143,6 +147,36 @@ fn a_capped_model_keeps_its_caps_as_patches_of_their_areas() {
 }
 
 #[test]
+fn a_settings_file_says_what_is_done_and_options_count_for_more() {
+    let folder = Folder::new("prepare-settings");
+    let [file, settings, nothing, out] = ["tube.ply", "s.json", "n.json", "out"].map(|name| folder.file(name));
+    let tube = lumen::mesh::shapes::tube(24, 30, 30.0, |_| 2.0);
+    std::fs::write(&file, lumen::io::write(&tube, None, lumen::io::Format::Ply).unwrap()).unwrap();
+    let solver = Some(Plan { clip: None, ..Plan::flow() });
+    let text = write_settings_and(&SharedSettings::default(), Beside { solver, ..Beside::default() });
+    std::fs::write(&settings, text).unwrap();
+    let made = |options: &[&str]| {
+        succeed(&[&["prepare", &file, "--settings", &settings, "--format", "stl", "-o", &out], options].concat());
+        let text = std::fs::read_to_string(format!("{out}/tube.stl")).unwrap();
+        let along = text.lines().filter_map(|line| line.trim().strip_prefix("vertex "));
+        let along: Vec<f64> = along.map(|line| line.split(' ').nth(2).unwrap().parse().unwrap()).collect();
+        let length = along.iter().copied().fold(f64::MIN, f64::max) - along.iter().copied().fold(f64::MAX, f64::min);
+        (length, text.matches("endsolid").count())
+    };
+    let near = |(length, solids): (f64, usize), expected: f64, count: usize| {
+        assert!((length - expected).abs() < 0.01 && solids == count, "{length} mm, {solids} solids");
+    };
+    // That of a circle of the polygon's area.
+    let radius = 2.0 * (12.0 / PI * (PI / 12.0).sin()).sqrt();
+    near(made(&[]), 30.0 + 2.0 * 5.0 * radius, 3);
+    near(made(&["--extend", "1mm"]), 32.0, 3);
+    near(made(&["--extend", "none", "--cap", "none"]), 30.0, 1);
+    std::fs::write(&nothing, write_settings_and(&SharedSettings::default(), Beside::default())).unwrap();
+    let told = lumen(&["prepare", &file, "--settings", &nothing, "-o", &out]);
+    assert!(String::from_utf8_lossy(&told.stderr).contains("says nothing of a solver"), "{told:?}");
+}
+
+#[test]
 fn what_cannot_be_prepared_gets_a_sentence_and_no_file() {
     let folder = Folder::new("prepare-refused");
     let out = folder.file("out");
@@ -151,7 +185,7 @@ fn what_cannot_be_prepared_gets_a_sentence_and_no_file() {
         (&["--clip", "-1"], 2, "is no length"),
         (&["--cap", "round"], 2, "there are fan, planar, smooth"),
         (&["--cap", "fan", "--format", "step"], 2, "there are stl, msh, inp, vtp, simvascular"),
-        (&["--remesh", "2"], 1, "cannot be prepared"),
+        (&["--remesh", "2"], 2, "3 edges around or more"),
     ] {
         let refused = lumen(&[&["prepare", "sample:aorta", "-o", &out], arguments].concat());
         let error = String::from_utf8_lossy(&refused.stderr);

@@ -99,7 +99,7 @@ fn public(data: &Path) -> Result<(), Failed> {
     {
         let scan = scan(name)?;
         assert_eq!(survey(&scan.grid).labels, [Label { value: 1, points }], "{name}");
-        assert_eq!(scan.names.iter().map(|(_, name)| name.as_str()).collect::<String>(), label, "{name}");
+        assert_eq!(scan.names.iter().map(|named| named.name.as_str()).collect::<String>(), label, "{name}");
     }
     Ok(())
 }

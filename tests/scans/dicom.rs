@@ -11,7 +11,7 @@ use lumen::io::volume::{Part, Scan, ScanError, read_volume};
 use lumen::io::{VolumeField, in_english};
 
 use crate::jpeg::{flat, lossless};
-use crate::samples::{ORIGIN, SIZE, STEPS, assert_is_it, points, value};
+use crate::samples::{ORIGIN, SIZE, STEPS, assert_is_it, label_name, points, value};
 use crate::{Files, open};
 
 const IMPLICIT: &str = "1.2.840.10008.1.2";
@@ -21,7 +21,9 @@ const DEFLATED: &str = "1.2.840.10008.1.2.1.99";
 const RLE: &str = "1.2.840.10008.1.2.5";
 const BASELINE: &str = "1.2.840.10008.1.2.4.50";
 const JPEG_2000: &str = "1.2.840.10008.1.2.4.90";
+const JPEG_LS: &str = "1.2.840.10008.1.2.4.80";
 const LOSSLESS: &str = "1.2.840.10008.1.2.4.70";
+const NEAR_LOSSLESS: &str = "1.2.840.10008.1.2.4.81";
 
 /// The name that no reader may ever repeat.
 const PATIENT: &str = "Roentgen^Anna Bertha";
@@ -62,6 +64,7 @@ impl File {
                 let (first, rest) = picture.split_at(20);
                 Some(vec![Vec::new(), first.to_vec(), rest.to_vec()])
             }
+            JPEG_LS => Some(vec![Vec::new(), jpeg_ls(k)]),
             _ => None,
         };
         let elements = vec![
@@ -191,6 +194,19 @@ fn run_lengths(pixels: &[u16]) -> Vec<u8> {
     padded([header.iter().flat_map(|word| word.to_le_bytes()).collect(), high, low].concat())
 }
 
+/// Bytes by their hexadecimal digits.
+fn hexadecimal(digits: &str) -> Vec<u8> {
+    (0..digits.len()).step_by(2).map(|at| u8::from_str_radix(&digits[at..at + 2], 16).unwrap()).collect()
+}
+
+/// The picture of slice `k`, packed by CharLS (pyjpegls 1.5.1); slices differ in their first pixel.
+fn jpeg_ls(k: usize) -> Vec<u8> {
+    let first = ["d46", "ed6", "f95", "e05"][k];
+    hexadecimal(&format!(
+        "ffd8fff7000b0c0005000601011100ffda0008010100000000000000001{first}87061863a224282089a21084216688888324444400ffd9"
+    ))
+}
+
 const NAMES: [&str; 4] = ["c", "a", "d", "b"];
 
 /// The slices of the volume in an order that is not theirs.
@@ -201,7 +217,7 @@ fn series(syntax: &'static str) -> Files {
 /// Every packing.
 pub(crate) fn all() -> Vec<(&'static str, Files)> {
     let ways = [("implicit", IMPLICIT), ("explicit", EXPLICIT), ("big-endian", BIG), ("run lengths", RLE)];
-    let ways = ways.into_iter().chain([("lossless JPEG", LOSSLESS)]);
+    let ways = ways.into_iter().chain([("lossless JPEG", LOSSLESS), ("JPEG-LS", JPEG_LS)]);
     let mut all: Vec<_> = ways.map(|(what, syntax)| (what, series(syntax))).collect();
     // The length of the file's own elements is left out or wrong, or they are not there at all.
     let changed = |syntax, change: fn(&mut Vec<u8>)| {
@@ -318,12 +334,10 @@ const RAMPS: [&str; 2] = [
 ];
 
 fn ramp(signed: usize, k: usize) -> File {
-    let byte = |at: usize| u8::from_str_radix(&RAMPS[signed][at..at + 2], 16).unwrap();
-    let picture = (0..RAMPS[signed].len()).step_by(2).map(byte).collect();
     let mut slice =
         File::slice(JPEG_2000, k).with(0x0028, 0x0103, short(signed as u16)).with(0x0028, 0x0101, short(16));
     slice = slice.with(0x0028, 0x0010, short(32)).with(0x0028, 0x0011, short(32));
-    slice.fragments = Some(vec![Vec::new(), padded(picture)]);
+    slice.fragments = Some(vec![Vec::new(), padded(hexadecimal(RAMPS[signed]))]);
     slice
 }
 
@@ -363,6 +377,72 @@ fn jpeg_2000_of_many_tiles_or_components_is_refused_without_room_for_them() {
         let refused = result.unwrap_err().to_string();
         assert!(refused.contains("JPEG picture") && taken < 1_000_000, "{n}: {refused} {taken}");
     }
+}
+
+/// Two slices that are this JPEG-LS picture, of so many columns and rows.
+fn two_of(picture: &[u8], [columns, rows]: [u16; 2]) -> Result<Scan, ScanError> {
+    let slice = |k: usize| {
+        let mut slice =
+            File::slice(NEAR_LOSSLESS, k).with(0x0028, 0x0010, short(rows)).with(0x0028, 0x0011, short(columns));
+        slice.fragments = Some(vec![Vec::new(), padded(picture.to_vec())]);
+        (NAMES[k], slice.bytes())
+    };
+    open(&[0, 1].map(slice))
+}
+
+/// The stored number of a pixel in the first slice.
+fn stored(scan: &Scan, column: usize, row: usize) -> f64 {
+    2.0 * (scan.grid.value([column, row, 0]) + 1000.0)
+}
+
+/// The example of the standard (ITU-T T.87, annex H.3), its thresholds left out or said; and what is cut, of several
+/// components, of another size, or of a wrong kind.
+#[test]
+fn jpeg_ls_of_the_standard_is_read() {
+    const PIXELS: [u8; 16] = [0, 0, 90, 74, 68, 50, 43, 205, 64, 145, 145, 145, 100, 145, 145, 145];
+    let [frame, thresholds, scan] = [
+        "ffd8fff7000b080004000401011100",
+        "fff8000d0100ff0003000700150040",
+        "ffda0008010100000000c000006c80208e01c00000574000006ee6000001bc18000005d800009160ffd9",
+    ]
+    .map(hexadecimal);
+    let short = [&*frame, &scan].concat();
+    for picture in [&short, &[&*frame, &thresholds, &scan].concat()] {
+        let scan = two_of(picture, [4, 4]).unwrap();
+        for (at, pixel) in PIXELS.into_iter().enumerate() {
+            assert_eq!(stored(&scan, at % 4, at / 4), f64::from(pixel), "{at}");
+        }
+    }
+    let changed = |at: usize, byte: u8| {
+        let mut picture = short.clone();
+        picture[at] = byte;
+        picture
+    };
+    // Cut; three components; by half of the largest number and more; interleaved; all zeros, which no encoder writes.
+    let zeros = [&short[..25], &[0; 40]].concat();
+    for damaged in [short[..45].to_vec(), changed(11, 3), changed(22, 128), changed(23, 1), zeros] {
+        let refused = two_of(&damaged, [4, 4]).unwrap_err().to_string();
+        assert!(refused.contains("the JPEG picture of a slice is damaged"), "{refused}");
+    }
+    let refused = two_of(&short, [5, 4]).unwrap_err().to_string();
+    assert!(refused.contains("is not of the size that the file says"), "{refused}");
+}
+
+/// A disc of 12 bits, each pixel off by 4 at most, as CharLS (pyjpegls 1.5.1) packs it and takes it apart again.
+#[test]
+fn near_lossless_jpeg_ls_is_read() {
+    const DISC: &str = "ffd8fff7000b0c0010001801011100ffda00080101000400000000000d9d2aaa93f4fc54c54e8374d837486a850cebd00056600000000074f6bd\
+         4cda600000000001d7c6440000000001d250000000001d0c0c408a4bd2060000000007633a6b4814600000053d6da0000000003afa928b980000000007\
+         4000000049c304acd484ab548040434570500063234d7c00000000073c00000000073cc1ec814e964cf416f196775aabb95c5b45045020ccd3d3100603\
+         eadce000000000743b60e7cf1497104c41cd4000000000e9e6feffd9";
+    const MIDDLE: [u16; 24] = [
+        1004, 1004, 1005, 1005, 1005, 996, 2958, 2965, 2948, 2940, 2942, 2931, 2913, 2914, 2908, 2893, 2891, 2884,
+        2880, 996, 1006, 1003, 1003, 1003,
+    ];
+    let scan = two_of(&hexadecimal(DISC), [24, 16]).unwrap();
+    assert_eq!((0..24).map(|i| stored(&scan, i, 8)).collect::<Vec<_>>(), MIDDLE.map(f64::from));
+    let all = (0..16).flat_map(|j| (0..24).map(move |i| (i, j)));
+    assert_eq!(all.map(|(i, j)| stored(&scan, i, j)).sum::<f64>(), 617_233.0);
 }
 
 #[test]

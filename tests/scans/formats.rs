@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use lumen::io::volume::{Head, Part, Scan, ScanError, begin, data_name, is_volume, read, read_volume};
-use lumen::io::{Axes, in_english};
+use lumen::io::{Axes, LabelName, in_english};
 use lumen::volume::{Label, Selection, VolumeError, surface, survey};
 
 use crate::open;
 use crate::samples::{
-    Nifti, all, ascii, assert_is_it, big, gzip, little, metaimage, metaimage_of_four, nrrd, points, value, vti,
+    Nifti, all, ascii, assert_is_it, big, gzip, label_name, little, metaimage, metaimage_of_four, nrrd, points, value,
+    vti,
 };
 
 #[test]
@@ -323,18 +324,19 @@ fn layered(second: impl Fn([usize; 3]) -> u8, segments: &str) -> Vec<u8> {
 #[test]
 fn layers_of_a_segmentation_are_one_map_or_a_volume_each() {
     let names = "Segment0_Name:=aorta: arch\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n\
-        Segment1_Name:=vein\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n\n";
+        Segment0_Color:=0.847059 0.396078 0.309804\nSegment1_Color:=red\nSegment1_Name:=vein\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n\n";
     let bytes = layered(|[i, ..]| u8::from(i > 4), names);
     let scan = open(&[("a.nrrd", bytes)]).unwrap();
     let labels = [(1, 40), (2, 20)].map(|(value, points)| Label { value, points });
     assert_eq!(survey(&scan.grid).labels, labels);
-    assert_eq!(scan.names, [(1, "aorta: arch".to_owned()), (2, "vein".to_owned())]);
+    let (arch, vein) = (label_name(1, "aorta: arch", Some([216, 101, 79])), label_name(2, "vein", None));
+    assert_eq!(scan.names, [arch.clone(), vein.clone()]);
     let bytes = layered(|[i, ..]| u8::from(i > 0), names);
     let read = |choice| read_volume(&[Part { name: "a.nrrd", bytes: &bytes }], choice);
-    for (choice, number, points, name) in [(None, 0, 40, "aorta: arch"), (Some(1), 1, 100, "vein")] {
+    for (choice, number, points, name) in [(None, 0, 40, arch), (Some(1), 1, 100, LabelName { value: 1, ..vein })] {
         let scan = read(choice).unwrap();
         assert_eq!(survey(&scan.grid).labels, [Label { value: 1, points }]);
-        assert_eq!((scan.names, scan.taken), (vec![(1, name.to_owned())], number));
+        assert_eq!((scan.names, scan.taken), (vec![name], number));
         assert_eq!(
             scan.offers.iter().map(|offer| offer.value.as_str()).collect::<Vec<_>>(),
             ["1 aorta: arch", "2 vein"]
@@ -365,7 +367,7 @@ fn labels_of_layers_beyond_a_map_are_numbered_anew_or_refused() {
         open(&[("a.nrrd", [header.into_bytes(), numbers.collect()].concat())])
     };
     let scan = layers(&|at| if at == 0 { 70_000 } else { 0 }, [6, 5, 4]).unwrap();
-    assert_eq!((scan.grid.value([0, 0, 0]), &scan.names[..]), (1.0, &[(1, "aorta".to_owned())][..]));
+    assert_eq!((scan.grid.value([0, 0, 0]), &scan.names[..]), (1.0, &[label_name(1, "aorta", None)][..]));
     let many = layers(&|at| at as u32, [300, 300, 2]).unwrap_err().to_string();
     assert!(many.contains("labels, the most that a map can have"), "{many}");
 }

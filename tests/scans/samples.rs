@@ -5,6 +5,7 @@
 
 use flate2::Compression;
 use flate2::read::{GzEncoder, ZlibEncoder};
+use lumen::io::LabelName;
 use lumen::io::volume::Scan;
 use std::io::Read;
 
@@ -14,6 +15,11 @@ pub(crate) const SIZE: [usize; 3] = [6, 5, 4];
 pub(crate) const STEPS: [[f64; 3]; 3] = [[0.3, 0.4, 0.0], [-0.6, 0.45, 0.0], [0.0, 0.0, 2.0]];
 /// The place of the first point, in LPS mm.
 pub(crate) const ORIGIN: [f64; 3] = [-10.0, 20.0, 300.0];
+
+/// What a segmentation calls a label.
+pub(crate) fn label_name(value: i64, name: &str, colour: Option<[u8; 3]>) -> LabelName {
+    LabelName { value, name: name.to_owned(), colour }
+}
 
 /// The value of a point.
 pub(crate) fn value([i, j, k]: [usize; 3]) -> i16 {

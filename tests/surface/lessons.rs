@@ -19,6 +19,9 @@ use lumen::pipeline::response::wavelength;
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Window};
 use lumen::prelude::{Course, Setup, Trial};
+use lumen::prepare::ends::Length;
+use lumen::prepare::prepare::{Plan, prepare};
+use lumen::task::{Yielder, at_once};
 use lumen::trial::frame::Progress;
 use lumen::trial::wire::Wire;
 use lumen::vessel::certificate::{BranchCalibre, Certificate, Verdict};
@@ -681,6 +684,45 @@ const CLAIMS: &[Claim] = &[
             holds(before.abs_diff(100 * after) <= 200, (before, after))
         }),
     },
+    Claim {
+        at: ("solver", 1),
+        says: ["extended by 5 radii", "um 5 Radien verlängert", "prolongée de 5 rayons"],
+        truth: Is(
+            |_| match Plan::flow().extend {
+                Some(Length::Radii(radii)) => radii,
+                _ => f64::NAN,
+            },
+            0.0,
+        ),
+    },
+    Claim {
+        at: ("solver", 2),
+        says: ["has 12 edges around", "gehen 12 Kanten", "a 12 arêtes autour"],
+        truth: Is(|_| Plan::flow().remesh.unwrap().around, 0.0),
+    },
+    Claim {
+        at: ("solver", 2),
+        says: [
+            "None is far from equilateral",
+            "Keines ist weit von gleichseitig entfernt",
+            "Aucun n'est loin d'être équilatéral",
+        ],
+        truth: Holds(|seen| {
+            let made = at_once(prepare(seen.level(), &Plan::flow(), &Yielder::never())).unwrap();
+            let (quality, _) = made.remeshed.unwrap();
+            holds(quality.least_angle_deg > 30.0, quality)
+        }),
+    },
+    Claim {
+        at: ("solver", 2),
+        says: ["A polygon of 12 edges", "Ein Vieleck mit 12 Kanten", "Un polygone de 12 arêtes"],
+        truth: Is(|_| Plan::flow().remesh.unwrap().around, 0.0),
+    },
+    Claim {
+        at: ("solver", 2),
+        says: ["4.5 %", "4,5 %", "4,5 %"],
+        truth: Is(|_| 100.0 * (1.0 - 6.0 / PI * (PI / 6.0).sin()), 0.05),
+    },
 ];
 
 /// What a step says, with a blank between its parts.
@@ -722,7 +764,7 @@ fn each_claim_is_said_in_all_languages_and_each_number_is_a_setting_or_part_of_o
                     text = text.replace(said, " ");
                 }
                 for name in ["step ", "Schritt ", "l'étape "] {
-                    (1..=3).for_each(|number| text = text.replace(&format!("{name}{number}"), name));
+                    (1..=5).for_each(|number| text = text.replace(&format!("{name}{number}"), name));
                 }
                 let Settings { smoothing, target, decimation, .. } = step.settings.as_ref().unwrap();
                 let reduction = target.percent(1000);

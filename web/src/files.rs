@@ -122,6 +122,7 @@ async fn read_up_to(file: &File, length: usize) -> Result<Vec<u8>, String> {
         }
         bytes.resize(end, 0);
         piece.copy_to(&mut bytes[begin..]);
+        bytes::give_back(&piece);
     }
     Ok(bytes)
 }

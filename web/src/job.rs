@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use lumen::engine::scan::{ScanCommand, ScanEvent};
+use lumen::engine::scan::{ScanCommand, ScanEvent, is_progress};
 use lumen::engine::trial::{HapticChannel, TrialCommand, TrialEvent, is_frame};
 use lumen::engine::{Command, Engine, Event, TrialEngine};
 use lumen::transfer::Message;
@@ -22,8 +22,8 @@ pub(crate) trait Job {
     /// What it tells.
     type Event: Message + 'static;
 
-    /// Whether a message with this line is useless once there is another such.
-    fn is_passing_line(_: &str) -> bool {
+    /// Whether a message with this head is useless once there is another such.
+    fn is_passing(_: &[u8]) -> bool {
         false
     }
 }
@@ -45,8 +45,8 @@ impl Job for Trial {
     type Command = TrialCommand;
     type Event = TrialEvent;
 
-    fn is_passing_line(line: &str) -> bool {
-        is_frame(line)
+    fn is_passing(head: &[u8]) -> bool {
+        is_frame(head)
     }
 }
 
@@ -59,8 +59,8 @@ impl Job for Scan {
     type Command = ScanCommand;
     type Event = ScanEvent;
 
-    fn is_passing_line(line: &str) -> bool {
-        line.starts_with("{\"Progress\"")
+    fn is_passing(head: &[u8]) -> bool {
+        is_progress(head)
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a browser gives the app: lines to engines in Workers, gamepads, haptic devices, the file dialog, dropped files,
 //! downloads.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
@@ -19,7 +19,7 @@ use lumen::say;
 use lumen_worker::speech;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
-use web_sys::File;
+use web_sys::{File, MediaQueryList};
 
 use crate::hid::page::Devices;
 use crate::job::{Pipeline, Trial};
@@ -44,6 +44,13 @@ pub(crate) struct Browser {
     /// What came with the file that was opened last.
     next: Vec<File>,
     waker: Waker,
+    /// `?embed` at the end of the page's address, which stays as it is while the page does; each frame asks.
+    is_embedded: bool,
+    /// Whether the user wants less motion, and whether what points is a finger: each frame asks, and asking anew is slow.
+    less_motion: Option<MediaQueryList>,
+    finger: Option<MediaQueryList>,
+    /// Whether a gamepad was ever plugged in, or used, on this page.
+    has_gamepad: Rc<Cell<bool>>,
 }
 
 type Inbox = Rc<RefCell<VecDeque<News>>>;
@@ -65,7 +72,8 @@ impl Browser {
     /// Starts the engine, that of the trial when it is needed; `ctx` draws again whenever there is news.
     pub(crate) fn new(ctx: &egui::Context) -> Self {
         let waker = Waker::new(ctx);
-        wake_at_gamepad(waker.clone());
+        let has_gamepad = Rc::new(Cell::new(false));
+        wake_at_gamepad(waker.clone(), Rc::clone(&has_gamepad));
         let devices = Devices::new(waker.clone());
         let link = WorkerLink::new(waker.clone());
         let trial = WorkerLink::idle(waker.clone()).with_devices(devices.clone());
@@ -80,6 +88,10 @@ impl Browser {
             inbox: Inbox::default(),
             next: Vec::new(),
             waker,
+            is_embedded: address::asked("embed").is_some(),
+            less_motion: media("(prefers-reduced-motion: reduce)"),
+            finger: media("(pointer: coarse)"),
+            has_gamepad,
         };
         hear_links(browser.news());
         browser
@@ -170,10 +182,13 @@ fn without_fragment(page: &web_sys::Window) -> Result<(), JsValue> {
 }
 
 /// Draws again when a gamepad is plugged in: until then it is not asked.
-fn wake_at_gamepad(waker: Waker) {
-    let wake = Closure::<dyn Fn()>::new(move || waker.wake());
+fn wake_at_gamepad(waker: Waker, is_there: Rc<Cell<bool>>) {
+    let wake = Closure::<dyn Fn()>::new(move || {
+        is_there.set(true);
+        waker.wake();
+    });
     let window = web_sys::window();
-    // Where it cannot be heard, the next movement of the pointer finds the gamepad.
+    // Where it cannot be heard there is none.
     let _ = window.map(|w| w.add_event_listener_with_callback("gamepadconnected", wake.as_ref().unchecked_ref()));
     // It lives as long as the page.
     wake.forget();
@@ -184,10 +199,9 @@ fn save(name: &str, bytes: &[u8]) -> Result<(), String> {
     files::save(name, bytes).map_err(|_| say!("scan-not-saved", name = name, mb = decimal(bytes.len() as f64 / 1e6, 1)))
 }
 
-/// What the page is told of its user and machine; where it cannot be asked, no.
-fn matches_media(query: &str) -> bool {
-    let query = web_sys::window().and_then(|window| window.match_media(query).ok().flatten());
-    query.is_some_and(|query| query.matches())
+/// What the page is told of its user and machine, now and later; where it cannot be asked, nothing.
+fn media(query: &str) -> Option<MediaQueryList> {
+    web_sys::window()?.match_media(query).ok().flatten()
 }
 
 impl Platform for Browser {
@@ -303,16 +317,15 @@ impl Screen for Browser {
     }
 
     fn prefers_less_motion(&self) -> bool {
-        matches_media("(prefers-reduced-motion: reduce)")
+        self.less_motion.as_ref().is_some_and(MediaQueryList::matches)
     }
 
-    /// `?embed` at the end of the page's address.
     fn is_embedded(&self) -> bool {
-        address::asked("embed").is_some()
+        self.is_embedded
     }
 
     fn has_finger(&self) -> bool {
-        matches_media("(pointer: coarse)")
+        self.finger.as_ref().is_some_and(MediaQueryList::matches)
     }
 }
 
@@ -356,7 +369,7 @@ impl Languages for Browser {
 
 impl Hands for Browser {
     fn gamepad(&self) -> Option<Gamepad> {
-        crate::gamepad::read()
+        self.has_gamepad.get().then(crate::gamepad::read).flatten()
     }
 
     fn rumble(&mut self, strength: f64) {

@@ -12,6 +12,8 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 use js_sys::{Object, Reflect};
+use lumen::engine::Command;
+use lumen::io::Format;
 use lumen::say;
 use lumen::transfer::Message;
 use lumen_worker::message::{Received, pack};
@@ -48,7 +50,7 @@ impl WorkerLine {
     ///
     /// What the browser answers when it makes no Worker. One that fails later is heard of through `poll`.
     pub(crate) fn start<J: Job>(devices: Option<Devices>, wake: impl Fn() + 'static) -> Result<Self, JsValue> {
-        let inbox = Inbox { queue: Rc::default(), passing: J::is_passing_line, devices, wake: Rc::new(wake) };
+        let inbox = Inbox { queue: Rc::default(), passing: J::is_passing, devices, wake: Rc::new(wake) };
         let (job, program) = (J::NAME, J::PROGRAM);
         let (worker, listeners) = spawn(job, program, &inbox)?;
         Ok(Self { job, program, inbox, worker, listeners })
@@ -107,7 +109,7 @@ impl Drop for WorkerLine {
 #[derive(Clone)]
 struct Inbox {
     queue: Rc<RefCell<VecDeque<Heard>>>,
-    passing: fn(&str) -> bool,
+    passing: fn(&[u8]) -> bool,
     devices: Option<Devices>,
     wake: Rc<dyn Fn()>,
 }
@@ -121,7 +123,7 @@ impl Inbox {
     }
 
     fn put(&self, heard: Heard) {
-        let is_passing = |heard: &Heard| matches!(heard, Heard::Message(message) if (self.passing)(message.line()));
+        let is_passing = |heard: &Heard| matches!(heard, Heard::Message(message) if (self.passing)(message.head()));
         {
             let mut queue = self.queue.borrow_mut();
             // What does not pass may have come between.
@@ -191,6 +193,8 @@ fn spawn(job: &str, program: Option<&str>, inbox: &Inbox) -> Result<(Worker, Lis
     if job == Pipeline::NAME {
         // Where the page's program stops, the page can still ask this one for the result.
         Reflect::set(&js_sys::global(), &"lumenEngine".into(), &worker)?;
+        let ask = Command::WriteLevel { name: "lumen-result.stl".into(), format: Format::Stl };
+        Reflect::set(&worker, &"save".into(), &pack(&ask)?.0)?;
     }
     inbox.tell_devices(Some(&worker));
     Ok((worker, Listeners { is_ready, _message: message, _error: error }))

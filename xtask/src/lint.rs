@@ -5,13 +5,11 @@ use std::process::Command;
 use anyhow::Result;
 
 use crate::step::{run, step};
-use crate::tools;
+use crate::{dependencies, tools};
 
 /// Fails at a word that is misspelt, or a dependency of a licence, source or name that is not allowed.
 pub(crate) fn lint() -> Result<()> {
-    let (typos, deny) = (tools::typos()?, tools::cargo_deny()?);
+    let typos = tools::typos()?;
     step("Check the spelling", || run(&mut Command::new(typos)))?;
-    step("Check the dependencies", || {
-        run(Command::new(deny).args(["--workspace", "--locked", "check", "bans", "licenses", "sources"]))
-    })
+    step("Check the dependencies", dependencies::check)
 }

@@ -9,6 +9,7 @@
 mod bench_trial;
 mod build;
 mod curve;
+mod dependencies;
 mod document;
 mod estimate;
 mod firmware;

@@ -23,9 +23,28 @@ const QUICK: ([&[&str]; 2], [&str; 2]) = (
     ["open-reduce-save.test.mjs", "bad-file.test.mjs"],
 );
 
-/// What all other runs do: everything, and what a build without window and scans says of what it lacks.
-const ALL: [&[&str]; 2] =
-    [&["--workspace"], &["--package=lumen", "--no-default-features", "--test=program", "--", "without_scans::"]];
+/// What all other runs do: everything. What counts instructions has no tests, and an interpreter to compile.
+const ALL: &[&str] = &["--workspace", "--exclude=lumen-instructions", "--exclude=xtask"];
+
+/// By itself it is compiled from what its own command was made of.
+const XTASK: &[&str] = &["--package=xtask"];
+
+/// What a build without window and scans says of what it lacks. All of ours is compiled anew for two sentences, hence not
+/// optimised.
+const BARE: &[&str] = &[
+    "--package=lumen",
+    "--no-default-features",
+    "--test=program",
+    "--config=profile.dev.package.lumen-io.opt-level=0",
+    "--config=profile.dev.package.lumen-mesh.opt-level=0",
+    "--config=profile.dev.package.lumen-pipeline.opt-level=0",
+    "--config=profile.dev.package.lumen-prepare.opt-level=0",
+    "--config=profile.dev.package.lumen-trial.opt-level=0",
+    "--config=profile.dev.package.lumen-vessel.opt-level=0",
+    "--config=profile.dev.package.lumen-volume.opt-level=0",
+    "--",
+    "without_scans::",
+];
 
 /// How much of the tests is run.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -119,7 +138,7 @@ pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
 fn native(extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     tools::vulkan()?;
     let display = tools::display()?;
-    let runs: &[&[&str]] = if extent == Extent::Quick { &QUICK.0 } else { &ALL };
+    let runs: &[&[&str]] = if extent == Extent::Quick { &QUICK.0 } else { &[ALL, XTASK, BARE] };
     estimate.begin("compile the native tests");
     let (mut counts, mut ended_well) = (Counts::default(), true);
     step("Run the native tests", || {
@@ -190,7 +209,7 @@ fn browser(dist: &Path, extent: Extent, estimate: &mut Estimate) -> Result<(Coun
     files.sort();
     // As a test's, so that it has the features of the native tests and is there once they have run.
     step("Compile the command line the browser is compared with", || {
-        crate::step::run(cargo().args(["test", "--quiet", "--workspace", "--no-run", "--test=program"]))
+        crate::step::run(cargo().args(["test", "--quiet", "--no-run", "--test=program"]).args(ALL))
     })?;
     let mut command = Command::new("node");
     command

@@ -120,11 +120,6 @@ pub(crate) fn cargo_fuzz() -> Result<PathBuf> {
     cargo_tool("cargo-fuzz", "0.13.2")
 }
 
-/// cargo-deny.
-pub(crate) fn cargo_deny() -> Result<PathBuf> {
-    cargo_tool("cargo-deny", "0.20.2")
-}
-
 /// A program of this version, compiled into the target directory without optimisation: none of them works for long.
 fn cargo_tool(program: &str, version: &str) -> Result<PathBuf> {
     let folder = target().join("tools");

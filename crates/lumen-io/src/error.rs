@@ -301,7 +301,6 @@ messages! {
         "scan-file-a-slice" FileASlice => "a file for each slice",
         "scan-encoding" Encoding { name: String } => "the encoding {name}",
         "scan-numbers-a-voxel" NumbersAVoxel => "several numbers a voxel",
-        "scan-dicom-jpeg-ls" JpegLs => "JPEG-LS compression",
         "scan-dicom-jpeg-bits" JpegBits { bits: u8 } => "JPEG pictures of {bits} bits",
         "scan-dicom-table" ValueTable => "a table of values (modality LUT)",
         "scan-dicom-jpeg-2000" Jpeg2000 => "JPEG 2000 compression",

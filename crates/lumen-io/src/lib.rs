@@ -40,7 +40,7 @@ pub use error::{Counted, Elements, Feature, Named, ReadError, Unfolded, Unnamed,
 pub use estimate::{Estimate, estimate};
 pub use formats::Format;
 pub use import::{import_made, import_mesh};
-pub use offer::{Offer, VolumeField};
+pub use offer::{LabelName, Offer, VolumeField};
 pub use output::Output;
 pub use places::{LeftOut, left_out};
 pub use reading::{read, read_in_slices};

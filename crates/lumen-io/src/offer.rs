@@ -1,4 +1,4 @@
-//! The volumes that some files hold, and what tells them apart.
+//! The volumes that some files hold, what tells them apart, and what their labels are called.
 
 use lumen_message::messages;
 use serde::{Deserialize, Serialize};
@@ -40,4 +40,15 @@ pub struct Offer {
     pub by: Option<VolumeField>,
     /// What it has there.
     pub value: String,
+}
+
+/// What a segmentation says of a label.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LabelName {
+    /// Its number.
+    pub value: i64,
+    /// Its name.
+    pub name: String,
+    /// The colour that it is to be shown in: red, green and blue of sRGB.
+    pub colour: Option<[u8; 3]>,
 }

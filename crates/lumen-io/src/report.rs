@@ -1,6 +1,6 @@
 //! What an import found and what it mended.
 
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::warnings::{Warning, in_english};
 use super::{Axes, Unit};
@@ -81,12 +81,16 @@ pub struct ImportReport {
     /// What the file holds besides the surface.
     pub skipped: Skipped,
     /// What looks odd or was mended. In JSON these are English sentences, which are not read back.
-    #[serde(serialize_with = "as_sentences", skip_deserializing)]
+    #[serde(default, serialize_with = "as_sentences", deserialize_with = "passed_over")]
     pub warnings: Vec<Warning>,
 }
 
 fn as_sentences<S: Serializer>(warnings: &[Warning], serializer: S) -> Result<S::Ok, S::Error> {
     in_english(warnings).serialize(serializer)
+}
+
+fn passed_over<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Warning>, D::Error> {
+    Vec::<String>::deserialize(from).map(|_| Vec::new())
 }
 
 /// How the surface of a scan hangs on its threshold.

@@ -24,6 +24,7 @@ macro_rules! locale {
             include_str!(concat!("../locales/", $tag, "/scan.ftl")),
             include_str!(concat!("../locales/", $tag, "/trial.ftl")),
             include_str!(concat!("../locales/", $tag, "/verdict.ftl")),
+            include_str!(concat!("../locales/", $tag, "/solver.ftl")),
             include_str!(concat!("../locales/", $tag, "/vessels.ftl")),
             include_str!(concat!("../locales/", $tag, "/views.ftl")),
         ]

@@ -79,8 +79,8 @@ impl AngleCounts {
     }
 }
 
-/// The three angles in degrees; those at a corner where two others coincide, or that is not finite, are 0.
-fn corner_angles(corners: [Vec3; 3]) -> [f64; 3] {
+/// The three angles of a triangle in degrees; those at a corner where two others coincide, or that is not finite, are 0.
+pub fn corner_angles(corners: [Vec3; 3]) -> [f64; 3] {
     let p = corners.map(Vec3::as_dvec3);
     std::array::from_fn(|i| {
         let (e, f) = (p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]);

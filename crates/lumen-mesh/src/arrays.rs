@@ -144,7 +144,7 @@ pub struct ArrayInfo {
     /// The least and the largest value, of several components the magnitude; null where none is a finite number.
     pub range: Option<[f64; 2]>,
     /// The different values of labels, ascending; none where there are more than [`LABELS`].
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub labels: Vec<f64>,
 }
 

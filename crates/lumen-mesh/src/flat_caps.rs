@@ -78,11 +78,11 @@ pub async fn flat_caps_in_slices(mesh: &TriMesh, topology: &Topology, yielder: &
     caps
 }
 
-/// The area of a closed polygon seen against the unit `normal`, positive where it runs counter-clockwise.
-pub fn polygon_area(points: impl Iterator<Item = DVec3> + Clone, normal: DVec3) -> f64 {
-    let Some(first) = points.clone().next() else { return 0.0 };
-    let pairs = points.clone().zip(points.skip(1));
-    pairs.map(|(a, b)| (a - first).cross(b - first).dot(normal)).sum::<f64>() / 2.0
+/// Those of `triangles` that are in none of `caps`, in their order.
+pub fn without_caps(triangles: &[[u32; 3]], caps: &[FlatCap]) -> Vec<[u32; 3]> {
+    let mut is_cap = vec![false; triangles.len()];
+    caps.iter().flat_map(|cap| &cap.triangles).for_each(|&t| is_cap[t as usize] = true);
+    triangles.iter().zip(&is_cap).filter(|(_, is_cap)| !**is_cap).map(|(&triangle, _)| triangle).collect()
 }
 
 /// The search for caps in one surface.
@@ -249,8 +249,7 @@ impl<'a> Search<'a> {
         DEPTHS.iter().all(|depth| {
             let at = cap.centre - cap.normal * depth * radius;
             let outlines = cut(&self.mesh.positions, &wall, at, cap.normal);
-            let area = |outline: &super::Outline| polygon_area(outline.points.iter().copied(), cap.normal);
-            let largest = outlines.iter().filter(|outline| outline.is_closed).map(area).fold(0.0, f64::max);
+            let largest = outlines.iter().map(|outline| outline.area(cap.normal)).fold(0.0, f64::max);
             largest > cap.area_mm2 / WIDER && largest < cap.area_mm2 * WIDER
         })
     }

@@ -41,7 +41,7 @@ mod values;
 pub mod winding;
 
 pub use angles::AngleCounts;
-pub use angles::{Angles, angles};
+pub use angles::{Angles, angles, corner_angles};
 pub use arrays::{Array, ArrayInfo};
 pub use ball::Ball;
 pub use blend::{Blend, blended};
@@ -52,7 +52,7 @@ pub use closest_point::closest_point_on_triangle;
 pub use closest_point::distance_to_triangle;
 pub use components::{Components, components};
 pub use cut::{Outline, cut, cut_pieces};
-pub use flat_caps::{FlatCap, flat_caps, flat_caps_in_slices, polygon_area};
+pub use flat_caps::{FlatCap, flat_caps, flat_caps_in_slices, without_caps};
 pub use glam::Vec3;
 pub use hausdorff::{FarPoint, HausdorffBound, TOLERANCE};
 pub use index_build::IndexBuild;

@@ -181,7 +181,13 @@ impl SurfaceIndex {
 
     /// The nearest point of the surface to `p`; `None` for an empty surface or a query that is not finite.
     pub fn nearest(&self, p: Vec3) -> Option<Nearest> {
-        self.answer(self.search(p, Best::within(f64::INFINITY), -1.0))
+        self.answer(self.search(p, Best::within(f64::INFINITY), -1.0, any))
+    }
+
+    /// The nearest point of the triangles that `accepts` takes, by their numbers; `None` where there is none, or for a query
+    /// that is not finite.
+    pub fn nearest_of(&self, p: Vec3, accepts: impl Fn(u32) -> bool) -> Option<Nearest> {
+        self.answer(self.search(p, Best::within(f64::INFINITY), -1.0, accepts))
     }
 
     /// The same answer as [`Self::nearest`], found sooner when `p` is near an earlier query whose answer was `last`.
@@ -191,18 +197,19 @@ impl SurfaceIndex {
         if let Some(leaf) = self.leaves.get(last.slot as usize) {
             best.offer(leaf.project_point(p), leaf.triangle, last.slot);
         }
-        self.answer(self.search(p, best, -1.0))
+        self.answer(self.search(p, best, -1.0, any))
     }
 
     /// The nearest point of the surface to `p` if it is at most `distance` mm away: for an upper bound that is known,
     /// or where what is farther does not matter.
     pub fn nearest_within(&self, p: Vec3, distance: f32) -> Option<Nearest> {
-        self.answer(self.search(p, bounded(distance)?, -1.0))
+        self.answer(self.search(p, bounded(distance)?, -1.0, any))
     }
 
     /// Whether some point of the surface is at most `distance` mm from `p`. Ends at the first one found.
     pub fn is_within(&self, p: Vec3, distance: f32) -> bool {
-        bounded(distance).is_some_and(|bound| self.search(p, bound, bound.projection.squared).slot != Best::NO_SLOT)
+        bounded(distance)
+            .is_some_and(|bound| self.search(p, bound, bound.projection.squared, any).slot != Best::NO_SLOT)
     }
 
     /// The same answer as [`Self::is_within`], found sooner when `p` is near an earlier query: `last` says where that
@@ -214,13 +221,13 @@ impl SurfaceIndex {
         if self.leaves.get(*last as usize).is_some_and(is_there) {
             return true;
         }
-        let found = self.search(p, bound, enough).slot;
+        let found = self.search(p, bound, enough, any).slot;
         *last = found;
         found != Best::NO_SLOT
     }
 
-    /// Lowers `best` to the nearest triangle, or stops at one whose squared distance is at most `enough`.
-    fn search(&self, p: Vec3, mut best: Best, enough: f64) -> Best {
+    /// Lowers `best` to the nearest triangle that `accepts` takes, or stops at one whose squared distance is at most `enough`.
+    fn search(&self, p: Vec3, mut best: Best, enough: f64, accepts: impl Fn(u32) -> bool) -> Best {
         if self.nodes.is_empty() || !p.is_finite() {
             return Best::within(0.0);
         }
@@ -238,7 +245,9 @@ impl SurfaceIndex {
             if count > 0 {
                 for slot in child..child + u32::from(count) {
                     let leaf = &self.leaves[slot as usize];
-                    best.offer(leaf.project_point(p), leaf.triangle, slot);
+                    if accepts(leaf.triangle) {
+                        best.offer(leaf.project_point(p), leaf.triangle, slot);
+                    }
                 }
                 if best.projection.squared <= enough && best.slot != Best::NO_SLOT {
                     return best;
@@ -277,6 +286,11 @@ impl SurfaceIndex {
             slot: best.slot,
         })
     }
+}
+
+/// Takes every triangle.
+fn any(_: u32) -> bool {
+    true
 }
 
 /// A search that accepts at most `distance`; `None` when that is negative or no number.
@@ -328,6 +342,7 @@ mod tests {
         for bad in [f32::NAN, f32::INFINITY] {
             assert_eq!(plane.nearest(Vec3::new(0.0, bad, 0.0)), None);
             assert!(!plane.is_within(Vec3::splat(bad), 1.0));
+            assert_eq!(plane.nearest_of(Vec3::splat(bad), |_| true), None);
         }
         assert_eq!(plane.nearest_within(Vec3::Z, f32::NAN), None);
         assert_eq!(plane.nearest_within(Vec3::Z, -1.0), None);
@@ -472,6 +487,18 @@ mod tests {
             let (squared, triangle) = brute_force(&mesh, p);
             prop_assert_eq!(found.distance, squared.sqrt() as f32);
             prop_assert_eq!(found.triangle, triangle);
+        }
+
+        #[test]
+        fn of_some_triangles_the_answer_is_that_of_a_surface_of_them_alone(
+            mesh in soup(),
+            p in prop::array::uniform3(-8.0f32..8.0),
+        ) {
+            let p = Vec3::from(p);
+            let odd = mesh.triangles.iter().skip(1).step_by(2).copied().collect();
+            let alone = TriMesh { positions: mesh.positions.clone(), triangles: odd };
+            let found = index(&mesh).nearest_of(p, |t| t % 2 == 1).map(|found| (found.distance, found.triangle / 2));
+            prop_assert_eq!(found, index(&alone).nearest(p).map(|found| (found.distance, found.triangle)));
         }
     }
 }

@@ -13,9 +13,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::results::Surface;
 use crate::settings::Smoothing;
+use lumen_mesh::cut::area_and_middle;
 use lumen_mesh::task::Yielder;
 use lumen_mesh::{
-    FlatCap, Measures, Topology, TriMesh, Vec3, flat_caps_in_slices, oriented_loops, polygon_area, volume_within,
+    FlatCap, Measures, Topology, TriMesh, Vec3, flat_caps_in_slices, oriented_loops, volume_within, without_caps,
 };
 
 /// Passes in which what is inside of a rim takes the mean of its neighbours' ways.
@@ -42,10 +43,7 @@ impl Capped {
         if caps.is_empty() {
             return None;
         }
-        let mut is_cap = vec![false; mesh.triangles.len()];
-        caps.iter().flat_map(|cap| &cap.triangles).for_each(|&t| is_cap[t as usize] = true);
-        let triangles = mesh.triangles.iter().zip(&is_cap).filter(|(_, is_cap)| !**is_cap).map(|(&t, _)| t).collect();
-        let walls = TriMesh { positions: mesh.positions.clone(), triangles };
+        let walls = TriMesh { positions: mesh.positions.clone(), triangles: without_caps(&mesh.triangles, &caps) };
         let topology = Topology::new(walls.positions.len(), &walls.triangles);
         let loops = oriented_loops(&topology);
         let volume_mm3 = loops.as_deref().map(|loops| volume_within(&walls, loops));
@@ -70,15 +68,14 @@ impl Surface {
 
 /// Lays the caps of `before` into their planes, each with the area that it had.
 pub(crate) fn settle(before: &Surface, caps: &[FlatCap], positions: &mut [Vec3]) {
-    let old = |v: u32| before.mesh.positions[v as usize].as_dvec3();
     for cap in caps {
         let flat = |p: Vec3| {
             let p = p.as_dvec3();
             p - cap.normal * (p - cap.centre).dot(cap.normal)
         };
         let mut rim: Vec<DVec3> = cap.rim.iter().map(|&v| flat(positions[v as usize])).collect();
-        let area_before = polygon_area(cap.rim.iter().map(|&v| old(v)), cap.normal);
-        let area = polygon_area(rim.iter().copied(), cap.normal);
+        let old: Vec<DVec3> = cap.rim.iter().map(|&v| before.mesh.positions[v as usize].as_dvec3()).collect();
+        let [area_before, area] = [&old, &rim].map(|points| area_and_middle(points, cap.centre, cap.normal).0);
         if area > 0.0 && area_before > 0.0 {
             let scale = libm::sqrt(area_before / area);
             let middle = rim.iter().sum::<DVec3>() / rim.len() as f64;

@@ -13,6 +13,7 @@
 
 use glam::{DVec2, DVec3};
 use lumen_mesh::{Topology, TriMesh, boundary_loops, triangle_area};
+use serde::{Deserialize, Serialize};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use thiserror::Error;
 
@@ -28,7 +29,8 @@ const SMOOTHINGS: usize = 8;
 const MOST_VERTICES: f64 = 1e6;
 
 /// The shape of a cap.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum CapKind {
     /// Triangles from one vertex in the middle.
     Fan,

@@ -1,19 +1,24 @@
 //! What a volume mesher will say of a surface, before it is asked.
 //!
 //! TetGen (`-pY`, the surface kept as it is) and Gmsh fill a surface with tetrahedra when it is closed, when no triangle
-//! runs into another, and when no edge is too short or triangle too thin to be told from none. [`check`] finds what breaks
-//! this, and what does not stop a mesher but spoils its mesh or a solver's boundary conditions. It looks at what is there
-//! and changes nothing.
+//! runs into another or lies on a neighbour, and when no edge is too short or triangle too thin to be told from none.
+//! [`check`] finds what breaks this, and what does not stop a mesher but spoils its mesh or a solver's boundary
+//! conditions. It looks at what is there and changes nothing.
 //!
 //! It errs to one side: TetGen joins duplicates, goes along with edges of three triangles and with triangles without an area
 //! as long as nothing is open or crosses, while Gmsh refuses them, most times.
 
 use glam::{DVec3, Vec3};
 
-use lumen_mesh::{Components, Topology, TriMesh, boundary_loops, compacted, components, self_intersections};
+use lumen_mesh::{
+    Components, Topology, TriMesh, boundary_loops, compacted, components, corner_angles, self_intersections,
+    triangle_area,
+};
 use lumen_message::messages;
+use serde::{Deserialize, Serialize};
 
 use crate::Patched;
+use crate::folds::folds;
 
 /// The most places that a finding names.
 const PLACES: usize = 20;
@@ -25,7 +30,7 @@ const FLAT: f64 = 1e-6;
 
 messages! {
     /// Something in a surface that a volume mesher or a solver minds.
-    #[derive(Clone, Debug, PartialEq)]
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     pub enum Fault {
         /// There is no triangle.
         "check-empty" Empty => "The surface has no triangle.",
@@ -63,6 +68,15 @@ messages! {
             /// How many.
             count: usize,
         } => (count, "One triangle runs into another.", "{count} triangles run into others."),
+        /// Neighbours with less than [`FOLD_DEGREES`](crate::folds::FOLD_DEGREES) between them.
+        "check-folds" Folds {
+            /// Edges between them.
+            count: usize,
+        } => (
+            count,
+            "The surface is folded onto itself at one edge.",
+            "The surface is folded onto itself at {count} edges."
+        ),
         /// Vertices at the place of another.
         "check-coincident" Coincident {
             /// Those beyond the first at their place.
@@ -116,7 +130,8 @@ impl Fault {
             | Self::SharedEdges { .. }
             | Self::Duplicates { .. }
             | Self::Degenerate { .. }
-            | Self::Crossing { .. } => true,
+            | Self::Crossing { .. }
+            | Self::Folds { .. } => true,
             Self::Coincident { .. }
             | Self::Windings { .. }
             | Self::InsideOut { .. }
@@ -127,7 +142,7 @@ impl Fault {
 }
 
 /// A fault and where it is.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
     /// What it is.
     pub fault: Fault,
@@ -136,7 +151,7 @@ pub struct Finding {
 }
 
 /// What awaits a surface at a volume mesher.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fate {
     /// What is wrong, the gravest first.
     pub findings: Vec<Finding>,
@@ -145,7 +160,7 @@ pub struct Fate {
 }
 
 impl Fate {
-    /// Whether TetGen (`-pY`) and Gmsh make a volume mesh of it.
+    /// Whether nothing was found for which TetGen (`-pY`) or Gmsh would make no volume mesh of it.
     pub fn is_ready(&self) -> bool {
         !self.findings.iter().any(|finding| finding.fault.stops())
     }
@@ -180,7 +195,7 @@ pub fn check(surface: &Patched) -> Fate {
     let shared = edges(&whole, &topology, lumen_mesh::EdgeUse::is_non_manifold);
     let windings = edges(&whole, &topology, lumen_mesh::EdgeUse::is_flipped);
     let (coincident, duplicates) = (coincident(&whole), duplicates(&whole));
-    let crossing = self_intersections(&whole);
+    let (crossing, folds) = (self_intersections(&whole), folds(&whole));
     let volumes = volumes(&whole, &topology, &pieces);
     let inside_out = of_shape(&volumes, |volume| volume.is_some_and(|volume| volume < 0.0));
 
@@ -198,6 +213,7 @@ pub fn check(surface: &Patched) -> Fate {
     let found = [
         (rims.len(), Fault::OpenRims { count: rims.len() }, rim_places.collect()),
         (crossing.len(), Fault::Crossing { count: crossing.len() }, clusters(&whole, &crossing)),
+        (folds.len(), Fault::Folds { count: folds.len() }, clusters(&whole, folds.as_flattened())),
         (shared.len(), Fault::SharedEdges { count: shared.len() }, places(&shared)),
         (duplicates.len(), Fault::Duplicates { count: duplicates.len() }, centres(&whole, &duplicates)),
         (degenerate.len(), Fault::Degenerate { count: degenerate.len() }, centres(mesh, &degenerate)),
@@ -231,16 +247,13 @@ struct Shape {
 
 impl Shape {
     fn of(mesh: &TriMesh, t: usize) -> Self {
-        let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
-        let twice = (b - a).cross(c - a).length();
-        let sides = [(b - a), (c - b), (a - c)];
-        let longest = sides.iter().map(|side| side.length_squared()).fold(0.0, f64::max);
-        let angle = |p: DVec3, q: DVec3| libm::atan2(twice, p.dot(q)).to_degrees();
-        let angles = [angle(b - a, c - a), angle(a - b, c - b), angle(a - c, b - c)];
+        let corners = mesh.corners(t);
+        let [a, b, c] = corners.map(Vec3::as_dvec3);
+        let longest = [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
         Self {
             // The height over the longest side is twice the area by it.
-            is_degenerate: twice <= FLAT * longest,
-            least_degrees: angles.into_iter().fold(180.0, f64::min),
+            is_degenerate: 2.0 * triangle_area(corners) <= FLAT * longest,
+            least_degrees: corner_angles(corners).into_iter().fold(180.0, f64::min),
         }
     }
 }

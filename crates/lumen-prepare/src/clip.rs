@@ -509,7 +509,7 @@ mod tests {
     /// A plane through `centre` out along `normal`, of any length, of a vessel of `radius_mm`.
     fn plane(centre: DVec3, normal: DVec3, radius_mm: f64) -> EndPlane {
         let normal = normal.normalize();
-        EndPlane { branch: 0, at_end: true, centre, normal, radius_mm, roundness: 1.0, arc_mm: 0.0 }
+        EndPlane { branch: Some(0), at_end: true, centre, normal, radius_mm, roundness: 1.0, arc_mm: 0.0 }
     }
 
     /// Area of the polygon of `sides` in a circle.

@@ -5,15 +5,16 @@ pub mod check;
 pub mod clip;
 pub mod ends;
 pub mod extend;
+pub mod folds;
+pub mod notes;
 pub mod prepare;
-
 pub mod remesh;
 pub mod uncross;
 pub mod write;
 
 use serde::{Deserialize, Serialize};
 
-use lumen_mesh::TriMesh;
+use lumen_mesh::{TriMesh, triangle_area};
 
 /// What a patch is to a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -57,6 +58,10 @@ impl Patch {
     }
 }
 
+/// What the messages of this crate need of a translation.
+pub const MESSAGES: &[&[lumen_message::Signature]] =
+    &[check::Fault::MESSAGES, notes::Note::MESSAGES, notes::PrepareError::MESSAGES, notes::Reason::MESSAGES];
+
 /// A surface in patches.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Patched {
@@ -72,5 +77,17 @@ impl Patched {
     /// A surface that is wall alone.
     pub fn wall(mesh: TriMesh) -> Self {
         Self { of_triangle: vec![0; mesh.triangles.len()], mesh, patches: vec![Patch::wall()] }
+    }
+
+    /// The area of the triangles of each patch, in mm2.
+    ///
+    /// # Panics
+    /// When a triangle names a vertex or a patch that is not there.
+    pub fn areas_mm2(&self) -> Vec<f64> {
+        let mut areas = vec![0.0; self.patches.len()];
+        for (t, &patch) in self.of_triangle.iter().enumerate() {
+            areas[patch as usize] += triangle_area(self.mesh.corners(t));
+        }
+        areas
     }
 }

@@ -1,25 +1,29 @@
 //! All of it in one call: the largest piece, uncross, clip, extend, cap, remesh, check.
 
-use glam::DVec3;
-use thiserror::Error;
+use std::sync::Arc;
 
-use super::cap::{CapError, CapKind, cap};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use super::cap::{CapKind, cap};
 use super::check::{Fate, check};
-use super::clip::{ClipError, Clipped, clip};
+use super::clip::{Clipped, clip};
 use super::ends::{
-    EndError, EndPlane, Length, OpenEnd, RimError, SurfaceError, check_surface, open_ends, place,
-    planes_of_uneven_openings, propose,
+    EndError, EndPlane, Length, OpenEnd, check_surface, names, open_ends, place, planes_of_uneven_openings, propose,
 };
 use super::extend::{ExtendError, Extended, extend};
-use super::remesh::{Deviation, Quality, RemeshError, Remeshed, Sizing, remesh};
-use super::uncross::{UncrossError, Uncrossed, uncross};
+use super::notes::{Note, PrepareError, Reason};
+use super::remesh::{Deviation, Quality, Remeshed, Sizing, remesh_in_slices};
+use super::uncross::{Uncrossed, uncross_in_slices};
 use super::{Patch, PatchKind, Patched};
 use lumen_mesh::mending::fill::fill;
 use lumen_mesh::mending::split::split;
-use lumen_mesh::task::{Yielder, at_once};
-use lumen_mesh::{Topology, TriMesh, Vec3, boundary_loops, compacted, components, flat_caps, triangle_area};
+use lumen_mesh::task::Yielder;
+use lumen_mesh::{
+    FlatCap, SurfaceIndex, Topology, TriMesh, Vec3, boundary_loops, compacted, components, flat_caps, without_caps,
+};
 use lumen_vessel::width::widths;
-use lumen_vessel::{End, Tree, TreeError};
+use lumen_vessel::{End, Tree};
 
 /// An extension that would run into something is as long as this part of what is free.
 const OF_FREE: f64 = 0.9;
@@ -31,7 +35,8 @@ const FLAT: f64 = 0.011;
 const ROUNDS: usize = 4;
 
 /// Where vessels are cut.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum ClipAt {
     /// As near to each end as the vessel is round there.
     Round,
@@ -40,7 +45,8 @@ pub enum ClipAt {
 }
 
 /// What is done to a surface, from top to bottom.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Plan {
     /// Whether triangles that cross are taken apart first.
     pub uncross: bool,
@@ -54,78 +60,31 @@ pub struct Plan {
     pub remesh: Option<Sizing>,
 }
 
-/// Something that was done otherwise than asked for.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum Note {
-    /// Pieces are left out.
-    #[error("of {} pieces the largest is taken", others + 1)]
-    LeftOut {
-        /// How many others there were.
-        others: usize,
-    },
-    /// An end has no plane.
-    #[error("an end is not cut: {0}")]
-    NoPlane(#[from] EndError),
-    /// A plane does not cut.
-    #[error("the end at ({:.1}, {:.1}, {:.1}) is not cut: {why}", at[0], at[1], at[2])]
-    NotCut {
-        /// The middle of the plane, in mm.
-        at: [f64; 3],
-        /// Why not.
-        why: ClipError,
-    },
-    /// Nothing is extended or closed.
-    #[error("no end was found that could be extended or closed: cut the ends first (--clip)")]
-    NoEnds,
-    /// Holes of the wall are filled.
-    #[error("{count} holes of the wall are filled")]
-    Filled {
-        /// How many.
-        count: usize,
-    },
-    /// A loop is no end.
-    #[error("an opening is closed as a part of the wall: {0}")]
-    NoEnd(#[from] RimError),
-    /// An extension is shorter.
-    #[error("the extension of {name} is only {mm:.1} mm long: farther on it would run into something")]
-    Shortened {
-        /// The end.
-        name: String,
-        /// How long it is, in mm.
-        mm: f64,
-    },
-    /// An end is not extended.
-    #[error("{name} is not extended: {why}")]
-    NotExtended {
-        /// The end.
-        name: String,
-        /// Why not.
-        why: ExtendError,
-    },
-}
+impl Plan {
+    /// What flow solvers ask for: ends cut where they are round, extended by five radii and closed evenly, 12 edges around.
+    pub fn flow() -> Self {
+        let (clip, extend) = (Some(ClipAt::Round), Some(Length::Radii(5.0)));
+        Self { uncross: true, clip, extend, cap: Some(CapKind::Planar), remesh: Some(Sizing::default()) }
+    }
 
-/// Why a surface cannot be prepared.
-#[derive(Debug, Error)]
-pub enum PrepareError {
-    /// The surface is broken.
-    #[error(transparent)]
-    Surface(#[from] SurfaceError),
-    /// Ends are to be cut and there is no vessel.
-    #[error("no end can be found: {0}")]
-    Tree(#[from] TreeError),
-    /// Crossing triangles cannot be taken apart.
-    #[error(transparent)]
-    Uncross(#[from] UncrossError),
-    /// An end cannot be closed.
-    #[error(transparent)]
-    Cap(#[from] CapError),
-    /// Its triangles cannot be made anew.
-    #[error(transparent)]
-    Remesh(#[from] RemeshError),
+    /// Refuses lengths that make no sense.
+    ///
+    /// # Errors
+    /// [`PrepareError::Sizes`].
+    pub fn check(&self) -> Result<(), PrepareError> {
+        let is_length = |length: Length| length.mm(1.0).is_some();
+        let clip = match self.clip {
+            Some(ClipAt::Distance(length)) => Some(length),
+            Some(ClipAt::Round) | None => None,
+        };
+        let are_right = clip.is_none_or(is_length) && self.extend.is_none_or(is_length);
+        self.remesh.as_ref().map_or(Ok(()), Sizing::check)?;
+        if are_right { Ok(()) } else { Err(PrepareError::Sizes) }
+    }
 }
 
 /// A surface that was prepared.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Prepared {
     /// The surface in patches, with their areas.
     pub surface: Patched,
@@ -133,18 +92,19 @@ pub struct Prepared {
     pub fate: Fate,
     /// What was done otherwise than asked for.
     pub notes: Vec<Note>,
-    /// What became of triangles that crossed, where that was asked for.
-    pub uncrossed: Option<Uncrossed>,
-    /// How well the triangles are shaped, and how far they went before ends were brought back to their areas, where they were
-    /// made anew.
+    /// Triangles that crossed before and after they were taken apart, where that was asked for.
+    pub crossing: Option<[usize; 2]>,
+    /// How well the triangles are shaped, and how far they went before new crossings were mended and ends brought back to their
+    /// areas, where they were made anew.
     pub remeshed: Option<(Quality, Deviation)>,
 }
 
-/// Prepares a surface.
+/// Prepares a surface. Rests between its steps, and within those that take longest.
 ///
 /// # Errors
 /// [`PrepareError`]. A single end that cannot be cut or extended is a [`Note`].
-pub fn prepare(mesh: &TriMesh, plan: &Plan) -> Result<Prepared, PrepareError> {
+pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<Prepared, PrepareError> {
+    plan.check()?;
     check_surface(mesh)?;
     let mut notes = Vec::new();
     // Edges of more than two triangles are no place to part surfaces at, and no mesher takes them.
@@ -152,15 +112,18 @@ pub fn prepare(mesh: &TriMesh, plan: &Plan) -> Result<Prepared, PrepareError> {
     if others > 0 {
         notes.push(Note::LeftOut { others });
     }
-    let (mut mesh, uncrossed) = if plan.uncross {
-        let mut found = uncross(&mesh)?;
-        (largest_piece(std::mem::take(&mut found.mesh)).0, Some(found))
+    yielder.rest(0.05).await;
+    let (mut mesh, crossing) = if plan.uncross {
+        let part = yielder.part(0.05..0.3);
+        let Uncrossed { mesh, crossing_before, crossing_after, .. } = uncross_in_slices(&mesh, &part).await?;
+        (largest_piece(mesh).0, Some([crossing_before, crossing_after]))
     } else {
         (mesh, None)
     };
     if let Some(at) = plan.clip {
-        mesh = clipped(mesh, at, &mut notes)?;
+        mesh = clipped(mesh, at, &mut notes, &yielder.part(0.3..0.5)).await?;
     }
+    yielder.rest(0.5).await;
     let mut surface = if plan.extend.is_some() || plan.cap.is_some() {
         // What is flat and closed is an end like those that are open.
         let (walls, had_caps) = opened(&mesh);
@@ -180,27 +143,40 @@ pub fn prepare(mesh: &TriMesh, plan: &Plan) -> Result<Prepared, PrepareError> {
     } else {
         in_patches(mesh)
     };
+    yielder.rest(0.55).await;
     measure(&mut surface);
     let mut remeshed = None;
     if let Some(sizing) = &plan.remesh {
-        let radii = radii(&surface);
-        let Remeshed { surface: new, deviation, .. } = remesh(&surface, &radii, sizing)?;
+        let radii = radii(&surface, &yielder.part(0.55..0.65)).await;
+        let part = yielder.part(0.65..0.9);
+        let Remeshed { surface: new, deviation, crossing, .. } =
+            remesh_in_slices(&surface, &radii, sizing, &part).await?;
         surface = new;
+        // Where two walls are nearer than a triangle is long, new ones may cross.
+        if plan.uncross && !crossing.is_empty() {
+            let Uncrossed { mesh, triangle_of, .. } =
+                uncross_in_slices(&surface.mesh, &yielder.part(0.9..0.95)).await?;
+            surface.of_triangle = triangle_of.iter().map(|&t| surface.of_triangle[t as usize]).collect();
+            surface.mesh = mesh;
+        }
         hold_areas(&mut surface);
         remeshed = Some((Quality::of(&surface.mesh), deviation));
         measure(&mut surface);
     }
+    yielder.rest(0.95).await;
     let fate = check(&surface);
-    Ok(Prepared { surface, fate, notes, uncrossed, remeshed })
+    Ok(Prepared { surface, fate, notes, crossing, remeshed })
 }
 
 /// The surface cut at its ends, as many of them as can be.
-fn clipped(mesh: TriMesh, at: ClipAt, notes: &mut Vec<Note>) -> Result<TriMesh, PrepareError> {
-    let tree = Tree::new(&mesh)?;
+async fn clipped(mesh: TriMesh, at: ClipAt, notes: &mut Vec<Note>, yielder: &Yielder) -> Result<TriMesh, PrepareError> {
+    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    let index = Arc::new(SurfaceIndex::new(&mesh.positions, &mesh.triangles));
+    let tree = Tree::with_topology_in_slices(&mesh, &topology, index, &yielder.part(0.0..0.8)).await?;
     let planes = match at {
         ClipAt::Round => {
             let proposal = propose(&mesh, &tree)?;
-            notes.extend(proposal.refused.into_iter().map(Note::NoPlane));
+            notes.extend(proposal.refused.iter().map(|error| not_cut(&tree, error)));
             proposal.planes
         }
         ClipAt::Distance(distance) => {
@@ -209,7 +185,7 @@ fn clipped(mesh: TriMesh, at: ClipAt, notes: &mut Vec<Note>) -> Result<TriMesh, 
                 for at_end in [false, true].into_iter().filter(|&at| branch.ends[usize::from(at)] != End::Joint) {
                     match place(&mesh, &tree, branch.id, at_end, distance) {
                         Ok(plane) => planes.push(plane),
-                        Err(error) => notes.push(error.into()),
+                        Err(error) => notes.push(not_cut(&tree, &error)),
                     }
                 }
             }
@@ -220,6 +196,15 @@ fn clipped(mesh: TriMesh, at: ClipAt, notes: &mut Vec<Note>) -> Result<TriMesh, 
     // An end that is too near a fork for such a plane is cut just inside of its rim, where that is uneven.
     let planes = planes_of_uneven_openings(&mesh)?;
     Ok(cut_at(mesh, &planes, notes))
+}
+
+/// What is told of an end that has no plane.
+fn not_cut(tree: &Tree, error: &EndError) -> Note {
+    let at = error.end().and_then(|(branch, at_end)| {
+        let points = &tree.branches().get(branch as usize)?.points;
+        Some(if at_end { points.last() } else { points.first() }?.at)
+    });
+    Note::NotCut { at: at.unwrap_or_default().as_vec3().to_array(), why: error.into() }
 }
 
 /// The surface cut at those planes that cut it.
@@ -233,7 +218,7 @@ fn cut_at(mesh: TriMesh, planes: &[EndPlane], notes: &mut Vec<Note>) -> TriMesh 
     match failed {
         // The others are cut without it.
         Some(failed) => {
-            notes.push(Note::NotCut { at: planes[failed].centre.to_array(), why: error });
+            notes.push(Note::NotCut { at: planes[failed].centre.as_vec3().to_array(), why: (&error).into() });
             let mesh = cut_at(mesh, &planes[..failed], notes);
             cut_at(mesh, &planes[failed + 1..], notes)
         }
@@ -242,7 +227,7 @@ fn cut_at(mesh: TriMesh, planes: &[EndPlane], notes: &mut Vec<Note>) -> TriMesh 
             planes.iter().fold(mesh, |mesh, plane| cut_at(mesh, std::slice::from_ref(plane), notes))
         }
         None => {
-            notes.push(Note::NotCut { at: first.centre.to_array(), why: error });
+            notes.push(Note::NotCut { at: first.centre.as_vec3().to_array(), why: (&error).into() });
             mesh
         }
     }
@@ -260,10 +245,7 @@ fn largest_piece(mesh: TriMesh) -> (TriMesh, usize) {
 /// The surface without its flat caps, and whether it had some.
 fn opened(mesh: &TriMesh) -> (TriMesh, bool) {
     let caps = flat_caps(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
-    let mut is_cap = vec![false; mesh.triangles.len()];
-    caps.iter().flat_map(|cap| &cap.triangles).for_each(|&t| is_cap[t as usize] = true);
-    let walls = mesh.triangles.iter().zip(&is_cap).filter(|(_, is_cap)| !**is_cap).map(|(&t, _)| t).collect();
-    (compacted(&mesh.positions, walls), !caps.is_empty())
+    (compacted(&mesh.positions, without_caps(&mesh.triangles, &caps)), !caps.is_empty())
 }
 
 /// The surface and its ends with extensions, as long as there is room for.
@@ -293,11 +275,12 @@ fn extended(mesh: TriMesh, ends: Vec<OpenEnd>, length: Length, notes: &mut Vec<N
                         && !matches!(error, ExtendError::Collides { .. })
                     {
                         (lengths[i], is_found) = (None, true);
-                        notes.push(Note::NotExtended { name: end.name.clone(), why: error });
+                        notes.push(Note::NotExtended { name: end.name.clone(), why: (&error).into() });
                     }
                 }
                 if !is_found {
-                    notes.push(Note::NotExtended { name: "every end".to_owned(), why: error });
+                    let why = Reason::from(&error);
+                    notes.extend(with.iter().map(|end| Note::NotExtended { name: end.name.clone(), why: why.clone() }));
                     break;
                 }
                 continue;
@@ -333,13 +316,15 @@ fn without_holes(mesh: &TriMesh, notes: &mut Vec<Note>) -> Result<(TriMesh, Vec<
     if refused.is_empty() {
         return Ok((mesh, ends));
     }
-    notes.extend(refused.into_iter().map(Note::NoEnd));
     let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
     for rim in boundary_loops(&topology) {
         if ends.iter().any(|end| end.rim.iter().all(|v| rim.contains(v))) {
             continue;
         }
         let middle = rim.iter().map(|&v| mesh.positions[v as usize]).sum::<Vec3>() / rim.len() as f32;
+        let end = OpenEnd::new(&mesh, &topology, rim.clone(), String::new(), PatchKind::Outlet);
+        let why = end.as_ref().err().map_or(Reason::Unsound, Reason::from);
+        notes.push(Note::AsWall { at: middle.to_array(), why });
         let apex = mesh.positions.len() as u32;
         mesh.positions.push(middle);
         mesh.triangles.extend((0..rim.len()).map(|i| [rim[(i + 1) % rim.len()], rim[i], apex]));
@@ -352,11 +337,8 @@ fn in_patches(mesh: TriMesh) -> Patched {
     let mut caps = flat_caps(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
     caps.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
     let mut surface = Patched::wall(mesh);
-    for (i, cap) in caps.into_iter().enumerate() {
-        let (kind, name) = match i {
-            0 => (PatchKind::Inlet, "inlet".to_owned()),
-            _ => (PatchKind::Outlet, format!("outlet_{i}")),
-        };
+    let radii: Vec<f64> = caps.iter().map(FlatCap::radius_mm).collect();
+    for (i, (cap, (kind, name))) in caps.into_iter().zip(names(&radii)).enumerate() {
         cap.triangles.iter().for_each(|&t| surface.of_triangle[t as usize] = i as u32 + 1);
         let (centre, normal) = (cap.centre.to_array(), cap.normal.to_array());
         surface.patches.push(Patch { id: i as u32 + 2, name, kind, centre, normal, area_mm2: cap.area_mm2 });
@@ -365,13 +347,13 @@ fn in_patches(mesh: TriMesh) -> Patched {
 }
 
 /// The radius of the vessel at each vertex, in mm: of the wall alone, as balls in the corner of a cap are small.
-fn radii(surface: &Patched) -> Vec<f32> {
+async fn radii(surface: &Patched, yielder: &Yielder) -> Vec<f32> {
     let Patched { mesh, of_triangle, .. } = surface;
     let walls: Vec<[u32; 3]> =
         mesh.triangles.iter().zip(of_triangle).filter(|(_, patch)| **patch == 0).map(|(&t, _)| t).collect();
     let wall = TriMesh { positions: mesh.positions.clone(), triangles: walls };
     let topology = Topology::new(wall.positions.len(), &wall.triangles);
-    let (mut radii, _) = at_once(widths(&wall, &topology, None, &Yielder::never()));
+    let (mut radii, _) = widths(&wall, &topology, None, yielder).await;
     // What is of a cap alone is as its patch.
     for (triangle, &patch) in mesh.triangles.iter().zip(of_triangle) {
         let Some(patch) = surface.patches.get(patch as usize).filter(|patch| patch.kind != PatchKind::Wall) else {
@@ -387,12 +369,16 @@ fn radii(surface: &Patched) -> Vec<f32> {
 
 /// Brings each flat inlet and outlet to the area that its patch has: fewer edges around a circle hold less.
 fn hold_areas(surface: &mut Patched) {
-    for (number, patch) in surface.patches.iter().enumerate().filter(|(_, patch)| patch.kind != PatchKind::Wall) {
+    let areas = surface.areas_mm2();
+    let mut vertices_of = vec![Vec::new(); surface.patches.len()];
+    for (triangle, &patch) in surface.mesh.triangles.iter().zip(&surface.of_triangle) {
+        vertices_of[patch as usize].extend(triangle);
+    }
+    for ((patch, area), mut vertices) in surface.patches.iter().zip(areas).zip(vertices_of) {
+        if patch.kind == PatchKind::Wall {
+            continue;
+        }
         let (centre, normal) = (DVec3::from_array(patch.centre), DVec3::from_array(patch.normal));
-        let of = |t: &usize| surface.of_triangle[*t] as usize == number;
-        let triangles: Vec<usize> = (0..surface.mesh.triangles.len()).filter(of).collect();
-        let area: f64 = triangles.iter().map(|&t| triangle_area(surface.mesh.corners(t))).sum();
-        let mut vertices: Vec<u32> = triangles.iter().flat_map(|&t| surface.mesh.triangles[t]).collect();
         vertices.sort_unstable();
         vertices.dedup();
         let off = |&v: &u32| (surface.mesh.positions[v as usize].as_dvec3() - centre).dot(normal).abs();
@@ -410,11 +396,6 @@ fn hold_areas(surface: &mut Patched) {
 
 /// Measures the areas of the patches.
 fn measure(surface: &mut Patched) {
-    let mut areas = vec![0.0; surface.patches.len()];
-    for (t, &patch) in surface.of_triangle.iter().enumerate() {
-        areas[patch as usize] += triangle_area(surface.mesh.corners(t));
-    }
-    for (patch, area) in surface.patches.iter_mut().zip(areas) {
-        patch.area_mm2 = area;
-    }
+    let areas = surface.areas_mm2();
+    surface.patches.iter_mut().zip(areas).for_each(|(patch, area)| patch.area_mm2 = area);
 }

@@ -1,6 +1,6 @@
 //! Triangles that run into others are moved apart or made anew, and nothing else is touched.
 //!
-//! Triangles that cross (`lumen_mesh::self_intersections`) are gathered into places: those that share a vertex or cross each
+//! Triangles that cross (`lumen_mesh::self_intersections`) or are folded onto a neighbour (`folds`) are gathered into places: those that share a vertex or cross each
 //! other, and those between them that lie on the wrong side of the other wall (`clusters`). At each place the gentle way is
 //! tried first (`apart`): the place's vertices and two rings around it move, along their normals or to the mean of their
 //! neighbours, until nothing crosses, while the wall leaves its place by no more than [`SHALLOW`] of the local radius. Where
@@ -22,9 +22,11 @@ mod clusters;
 mod membrane;
 mod recut;
 
-use thiserror::Error;
+use lumen_mesh::task::{Yielder, at_once};
+use lumen_mesh::{Bounds, SurfaceIndex, Topology, TriMesh, compacted};
 
-use lumen_mesh::{Bounds, SurfaceIndex, Topology, TriMesh, compacted, self_intersections};
+use crate::ends::{SurfaceError, check_surface};
+use crate::folds::clashing;
 
 use clusters::clusters;
 
@@ -70,55 +72,31 @@ pub struct Uncrossed {
     pub triangle_of: Vec<u32>,
     /// The places, in the order in which they were mended; those that failed last.
     pub places: Vec<Place>,
-    /// Triangles that crossed before.
+    /// Triangles that crossed or were folded before.
     pub crossing_before: usize,
-    /// Triangles that cross now.
+    /// Triangles that cross or are folded now.
     pub crossing_after: usize,
-}
-
-/// Why a surface cannot be looked at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-pub enum UncrossError {
-    /// A coordinate is no number.
-    #[error("Vertex {vertex} has a coordinate that is not finite.")]
-    NotFinite {
-        /// Its place in the list of vertices.
-        vertex: usize,
-    },
-    /// A triangle names a vertex that is not there.
-    #[error("Triangle {triangle} has a vertex that is not there: the surface has {vertices} vertices.")]
-    NoVertex {
-        /// Its place in the list of triangles.
-        triangle: usize,
-        /// How many vertices there are.
-        vertices: usize,
-    },
-    /// A triangle has a vertex twice.
-    #[error("Triangle {triangle} has a vertex twice.")]
-    RepeatsVertex {
-        /// Its place in the list of triangles.
-        triangle: usize,
-    },
 }
 
 /// Moves apart or makes anew what crosses in `mesh`.
 ///
 /// # Errors
-/// When a coordinate is not finite, or a triangle names a vertex that is not there or one vertex twice.
-pub fn uncross(mesh: &TriMesh) -> Result<Uncrossed, UncrossError> {
-    let vertices = mesh.positions.len();
-    if let Some(vertex) = mesh.positions.iter().position(|p| !p.is_finite()) {
-        return Err(UncrossError::NotFinite { vertex });
+/// [`SurfaceError`], but for [`SurfaceError::NoTriangles`].
+pub fn uncross(mesh: &TriMesh) -> Result<Uncrossed, SurfaceError> {
+    at_once(uncross_in_slices(mesh, &Yielder::never()))
+}
+
+/// As [`uncross`], resting between its rounds.
+///
+/// # Errors
+/// As [`uncross`].
+pub async fn uncross_in_slices(mesh: &TriMesh, yielder: &Yielder) -> Result<Uncrossed, SurfaceError> {
+    // Nothing crosses in a surface without triangles.
+    match check_surface(mesh) {
+        Ok(()) | Err(SurfaceError::NoTriangles) => {}
+        Err(error) => return Err(error),
     }
-    for (triangle, &[a, b, c]) in mesh.triangles.iter().enumerate() {
-        if [a, b, c].into_iter().any(|v| v as usize >= vertices) {
-            return Err(UncrossError::NoVertex { triangle, vertices });
-        }
-        if a == b || b == c || c == a {
-            return Err(UncrossError::RepeatsVertex { triangle });
-        }
-    }
-    let mut crossing = self_intersections(mesh);
+    let mut crossing = clashing(mesh);
     let mut done = Uncrossed {
         mesh: mesh.clone(),
         triangle_of: (0..mesh.triangles.len() as u32).collect(),
@@ -130,15 +108,18 @@ pub fn uncross(mesh: &TriMesh) -> Result<Uncrossed, UncrossError> {
         if crossing.is_empty() || 2 * crossing.len() > done.mesh.triangles.len() {
             break;
         }
+        yielder.rest(round as f32 / ROUNDS as f32).await;
         let next = mended(&done, &crossing, round);
-        let left = self_intersections(&next.mesh);
+        let left = clashing(&next.mesh);
         // A round that gains nothing is taken back; the next one cuts wider.
         if left.len() < crossing.len() {
             (done, crossing) = (next, left);
         }
     }
     done.crossing_after = crossing.len();
-    if done.places.iter().any(|place| place.remedy == Remedy::Recut) {
+    // Cuts leave vertices behind, be it those of a filling that was taken back.
+    if done.mesh.positions.len() > mesh.positions.len() || done.places.iter().any(|place| place.remedy == Remedy::Recut)
+    {
         done.mesh = compacted(&done.mesh.positions, done.mesh.triangles);
     }
     if !crossing.is_empty() {
@@ -150,7 +131,7 @@ pub fn uncross(mesh: &TriMesh) -> Result<Uncrossed, UncrossError> {
 }
 
 /// One round: what can be pushed apart is, the rest is cut out with a ring around it, later with two. What could not be cut
-/// with two is pushed without bounds.
+/// with two may go on its way to a membrane, by [`DEEP`] at most.
 fn mended(done: &Uncrossed, crossing: &[u32], round: usize) -> Uncrossed {
     let surface = Surface::of(&done.mesh);
     let clusters = clusters(&surface, crossing);

@@ -1,13 +1,12 @@
 #![doc = include_str!("../README.md")]
 
 use std::cell::RefCell;
-use std::io;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable, cast_slice, cast_slice_mut};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use serde_json::ser::Formatter;
 
 use lumen_message::messages;
 
@@ -15,9 +14,9 @@ messages! {
     /// A message that cannot be read.
     #[derive(Clone, Debug, PartialEq, Eq)]
     pub enum TransferError {
-        /// The line is not one of ours.
-        "errors-message" Line {
-            /// What `serde_json` says.
+        /// The head is not one of ours.
+        "errors-message" Head {
+            /// What `postcard` says.
             error: String,
         } => "the message is not understood: {error}",
         /// A buffer is missing.
@@ -47,12 +46,6 @@ messages! {
     }
 }
 
-impl From<serde_json::Error> for TransferError {
-    fn from(error: serde_json::Error) -> Self {
-        Self::Line { error: error.to_string() }
-    }
-}
-
 /// What can cross.
 pub trait Message: Serialize + DeserializeOwned {}
 
@@ -77,42 +70,41 @@ impl Buffers for Vec<Vec<u8>> {
     }
 }
 
-/// `message` as a line, and its buffers, each of which `copy` has made from an array.
+/// `message` as its head, and its buffers, each of which `copy` has made from an array.
 ///
 /// # Errors
 /// The first of `copy`.
-pub fn encode<B, E>(
+pub fn encode<B: 'static, E: 'static>(
     message: &impl Message,
-    mut copy: impl FnMut(&[u8]) -> Result<B, E>,
-) -> Result<(String, Vec<B>), E> {
-    let (mut line, mut buffers, mut failure) = (Vec::new(), Vec::new(), None);
-    let beside = BufferFormatter(|array: &[u8]| {
-        let buffer = copy(array).map_err(|error| failure = Some(error));
-        buffers.push(buffer.map_err(|()| io::ErrorKind::Other)?);
-        Ok(buffers.len() as u64 - 1)
-    });
-    let written = message.serialize(&mut serde_json::Serializer::with_formatter(&mut line, beside));
-    match failure {
-        Some(error) => Err(error),
-        None => {
-            written.expect("messages are plain data with string keys");
-            Ok((String::from_utf8(line).expect("JSON is text"), buffers))
+    mut copy: impl FnMut(&[u8]) -> Result<B, E> + 'static,
+) -> Result<(Vec<u8>, Vec<B>), E> {
+    let copies = Rc::new(RefCell::new((Vec::new(), None)));
+    WRITING.set(Some(Box::new({
+        let copies = Rc::clone(&copies);
+        move |array| {
+            let (buffers, failure) = &mut *copies.borrow_mut();
+            match copy(array) {
+                Ok(buffer) => buffers.push(buffer),
+                Err(error) => *failure = Some(error),
+            }
+            failure.is_none().then(|| buffers.len() - 1)
         }
+    })));
+    let head = postcard::to_allocvec(message);
+    drop(WRITING.take());
+    match copies.take() {
+        (_, Some(error)) => Err(error),
+        (buffers, None) => Ok((head.expect("messages are plain data"), buffers)),
     }
 }
 
-/// Writes JSON, and in place of bytes the number that it gets for them.
-struct BufferFormatter<F>(F);
-
-impl<F: FnMut(&[u8]) -> io::Result<u64>> Formatter for BufferFormatter<F> {
-    fn write_byte_array<W: ?Sized + io::Write>(&mut self, line: &mut W, array: &[u8]) -> io::Result<()> {
-        let index = (self.0)(array)?;
-        self.write_u64(line, index)
-    }
-}
+/// Copies an array; the number of its buffer, `None` where it cannot.
+type Copy = dyn FnMut(&[u8]) -> Option<usize>;
 
 thread_local! {
-    /// The message that this thread is reading: serde hands a field nothing but its own part of the line.
+    /// What copies the arrays of the message that this thread is writing: serde hands a field nothing but a place in the head.
+    static WRITING: RefCell<Option<Box<Copy>>> = const { RefCell::new(None) };
+    /// The message that this thread is reading.
     static READING: RefCell<Option<Reading>> = const { RefCell::new(None) };
 }
 
@@ -122,15 +114,15 @@ struct Reading {
     failure: Option<TransferError>,
 }
 
-/// The message of a line and its buffers.
+/// The message of a head and its buffers.
 ///
 /// # Errors
 /// When they are not what [`encode`] makes of such a message, or when there is no memory for an array.
-pub fn decode<M: Message>(line: &str, buffers: impl Buffers + 'static) -> Result<M, TransferError> {
+pub fn decode<M: Message>(head: &[u8], buffers: impl Buffers + 'static) -> Result<M, TransferError> {
     READING.set(Some(Reading { buffers: Box::new(buffers), failure: None }));
-    let message = serde_json::from_str(line);
+    let message = postcard::from_bytes(head);
     let failure = READING.take().and_then(|reading| reading.failure);
-    message.map_err(|error| failure.unwrap_or_else(|| error.into()))
+    message.map_err(|error| failure.unwrap_or_else(|| TransferError::Head { error: error.to_string() }))
 }
 
 /// What crosses as a buffer.
@@ -155,11 +147,10 @@ impl<T: Pod + Zeroable> Bulk for Vec<T> {
         let bytes = buffers.len(index);
         match bytes {
             Some(length) if length.is_multiple_of(element) => {
-                let mut values = Self::new();
-                values.try_reserve_exact(length / element).map_err(|_| TransferError::Memory { bytes: length })?;
-                values.resize(length / element, T::zeroed());
+                let values = bytemuck::allocation::try_zeroed_slice_box::<T>(length / element);
+                let mut values = values.map_err(|()| TransferError::Memory { bytes: length })?;
                 buffers.copy(index, cast_slice_mut(&mut values));
-                Ok(values)
+                Ok(values.into_vec())
             }
             Some(bytes) => Err(TransferError::Buffer { index, bytes, element }),
             None => Err(TransferError::Missing { index }),
@@ -189,17 +180,18 @@ impl<B: Bulk> Bulk for Arc<B> {
 
 /// For fields that cross as a buffer.
 pub mod bulk {
-    use super::{Bulk, Deserialize, Deserializer, Serializer, arrived};
+    use super::{Bulk, Deserialize, Deserializer, Serialize, Serializer, WRITING, arrived};
 
-    /// Puts an array beside the line.
+    /// Puts an array beside the head.
     ///
     /// # Errors
-    /// Those of the serializer.
+    /// Where no message is written, or the array cannot be copied; those of the serializer.
     pub fn serialize<S: Serializer>(array: &impl Bulk, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_bytes(array.bytes())
+        let copied = WRITING.with_borrow_mut(|writing| writing.as_mut().and_then(|copy| copy(array.bytes())));
+        copied.ok_or_else(|| serde::ser::Error::custom("an array beside no message"))?.serialize(to)
     }
 
-    /// Takes an array from beside the line.
+    /// Takes an array from beside the head.
     ///
     /// # Errors
     /// When there is none, or no memory for it.
@@ -212,7 +204,7 @@ pub mod bulk {
 pub mod optional {
     use super::{Bulk, Deserialize, Deserializer, Serialize, Serializer, arrived, bulk};
 
-    /// Puts an array beside the line, if there is one.
+    /// Puts an array beside the head, if there is one.
     ///
     /// # Errors
     /// Those of the serializer.
@@ -226,7 +218,7 @@ pub mod optional {
         array.as_ref().map(Carried).serialize(to)
     }
 
-    /// Takes an array from beside the line, if there is one.
+    /// Takes an array from beside the head, if there is one.
     ///
     /// # Errors
     /// When one is told of that is not there, or there is no memory for it.
@@ -247,12 +239,12 @@ fn arrived<B: Bulk, E: serde::de::Error>(index: usize) -> Result<B, E> {
     })
 }
 
-/// Sends `message` within this thread: its line, and what arrives. For tests of messages.
+/// Sends `message` within this thread: its head, and what arrives. For tests of messages.
 #[doc(hidden)]
-pub fn sent<M: Message>(message: &M) -> (String, Result<M, TransferError>) {
-    let Ok((line, buffers)) = encode(message, |array| Ok::<_, std::convert::Infallible>(array.to_vec()));
-    let arrived = decode(&line, buffers);
-    (line, arrived)
+pub fn sent<M: Message>(message: &M) -> (Vec<u8>, Result<M, TransferError>) {
+    let Ok((head, buffers)) = encode(message, |array| Ok::<_, std::convert::Infallible>(array.to_vec()));
+    let arrived = decode(&head, buffers);
+    (head, arrived)
 }
 
 /// What the messages of this crate need of a translation.
@@ -278,12 +270,13 @@ mod tests {
     }
 
     #[test]
-    fn arrays_stand_in_the_line_as_numbers_of_buffers() {
-        let (line, arrived) = sent(&parcel(Some(vec![[0.5; 3]; 2])));
-        assert_eq!(line, r#"{"numbers":0,"places":1,"name":"a","text":2}"#);
+    fn arrays_stand_in_the_head_as_numbers_of_buffers() {
+        // Numbers, that there is one, the length of the name and its letter: postcard's wire format.
+        let (head, arrived) = sent(&parcel(Some(vec![[0.5; 3]; 2])));
+        assert_eq!(head, [0, 1, 1, 1, b'a', 2]);
         assert_eq!(arrived.unwrap(), parcel(Some(vec![[0.5; 3]; 2])));
-        let (line, arrived) = sent(&parcel(None));
-        assert_eq!(line, r#"{"numbers":0,"places":null,"name":"a","text":1}"#);
+        let (head, arrived) = sent(&parcel(None));
+        assert_eq!(head, HEAD);
         assert_eq!(arrived.unwrap(), parcel(None));
     }
 
@@ -307,22 +300,23 @@ mod tests {
         }
     }
 
-    const LINE: &str = r#"{"numbers":0,"places":null,"name":"a","text":1}"#;
+    const HEAD: &[u8] = &[0, 0, 1, b'a', 1];
 
     #[test]
     fn a_buffer_that_no_memory_can_hold_is_an_error() {
         let bytes = isize::MAX as usize / 8 * 4;
-        let read = decode::<Parcel>(LINE, Claim(bytes));
+        let read = decode::<Parcel>(HEAD, Claim(bytes));
         assert!(matches!(read, Err(TransferError::Memory { bytes: claimed }) if claimed == bytes), "{read:?}");
     }
 
     #[test]
     fn messages_of_others_are_refused() {
-        let read = |line, buffers: Vec<Vec<u8>>| decode::<Parcel>(line, buffers).unwrap_err();
-        assert!(matches!(read("{}", vec![]), TransferError::Line { .. }));
-        assert!(matches!(read(LINE, vec![]), TransferError::Missing { index: 0 }));
-        assert!(matches!(read(LINE, vec![vec![1; 7]]), TransferError::Buffer { bytes: 7, .. }));
-        assert!(matches!(read(LINE, vec![vec![1; 8], vec![0xFF]]), TransferError::Text { index: 1 }));
-        assert!(serde_json::from_str::<Parcel>(LINE).is_err(), "outside a message there are no arrays");
+        let read = |head, buffers: Vec<Vec<u8>>| decode::<Parcel>(head, buffers).unwrap_err();
+        assert!(matches!(read(&[], vec![]), TransferError::Head { .. }));
+        assert!(matches!(read(HEAD, vec![]), TransferError::Missing { index: 0 }));
+        assert!(matches!(read(HEAD, vec![vec![1; 7]]), TransferError::Buffer { bytes: 7, .. }));
+        assert!(matches!(read(HEAD, vec![vec![1; 8], vec![0xFF]]), TransferError::Text { index: 1 }));
+        assert!(postcard::from_bytes::<Parcel>(HEAD).is_err(), "outside a message there are no arrays");
+        assert!(postcard::to_allocvec(&parcel(None)).is_err());
     }
 }

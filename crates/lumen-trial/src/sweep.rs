@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::STEP;
 use super::compare::{Noise, TrialComparison};
 use super::course::{Course, TrialError};
 use super::frame::Progress;
@@ -136,9 +135,7 @@ impl SeedRuns {
     /// The part that is done, 0 to 1: the runs before, and of this one the way to its end where that is known.
     pub fn fraction(&self) -> f32 {
         let Some(trial) = self.runs.last() else { return 0.0 };
-        let all = trial.replayed_steps().map_or(trial.limit_s() / STEP, |all| all as f64);
-        let part = trial.simulation().steps() as f64 / all.max(1.0);
-        ((self.runs.len() - 1) as f64 + part.min(1.0)) as f32 / RUNS as f32
+        ((self.runs.len() - 1) as f64 + trial.part_done()) as f32 / RUNS as f32
     }
 }
 

@@ -91,6 +91,8 @@ pub enum Show {
     Response,
     /// The error against the triangles, in the third.
     Error,
+    /// The level made ready for a solver.
+    Solver,
 }
 
 /// Whether a step has a trial.
@@ -253,6 +255,7 @@ impl Show {
             "collapses" => Self::Collapses,
             "response" => Self::Response,
             "error" => Self::Error,
+            "solver" => Self::Solver,
             _ => return None,
         })
     }

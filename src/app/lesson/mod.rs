@@ -22,10 +22,11 @@ use super::options::{Colours, ViewOptions};
 use super::reveal::Reveal;
 use super::row::Part;
 use super::state::State;
-use super::{trial, vessels};
+use super::{solver, trial, vessels};
 use crate::engine::Source;
 use crate::language::Key;
 use crate::pipeline::settings::Settings;
+use crate::prepare::prepare::Plan;
 use crate::say;
 use crate::sharing::measures::Measure;
 
@@ -33,7 +34,7 @@ use crate::sharing::measures::Measure;
 pub const ENDING: &str = "lesson";
 
 /// The lessons that come with Lumen: name in a link, title, and the text of its file.
-pub const LESSONS: [(&str, Key, Key); 7] = [
+pub const LESSONS: [(&str, Key, Key); 8] = [
     ("stair-steps", Key("lesson-stair-steps"), Key("lesson-stair-steps-text")),
     ("nets", Key("lesson-nets"), Key("lesson-nets-text")),
     ("pass-band", Key("lesson-pass-band"), Key("lesson-pass-band-text")),
@@ -41,6 +42,7 @@ pub const LESSONS: [(&str, Key, Key); 7] = [
     ("shrinkage", Key("lesson-shrinkage"), Key("lesson-shrinkage-text")),
     ("decimation", Key("lesson-decimation"), Key("lesson-decimation-text")),
     ("wire", Key("lesson-wire"), Key("lesson-wire-text")),
+    ("solver", Key("lesson-solver"), Key("lesson-solver-text")),
 ];
 
 /// The lesson that is given, if one is.
@@ -171,10 +173,17 @@ impl Lessons {
         if now.are_collapses_open != shows(Show::Collapses) {
             asked.push(Ask::Collapses(collapses::action::Action::Toggle));
         }
-        let parts = [(Show::Response, Part::Response), (Show::Error, Part::Error)];
+        let parts = [(Show::Response, Part::Response), (Show::Error, Part::Error), (Show::Solver, Part::Solver)];
         asked.extend(parts.into_iter().filter(|(show, _)| shows(*show)).map(|(_, part)| Ask::Unfold(part)));
         self.waiting.clear();
         self.waiting.extend(view.map(Ask::View));
+        let is_made = now.state.preparation.is_open;
+        if is_made && !shows(Show::Solver) {
+            asked.push(Ask::Solver(solver::Action::Show(false)));
+        } else if !is_made && shows(Show::Solver) {
+            asked.push(Ask::Solver(solver::Action::Set(Plan::flow())));
+            self.waiting.push_back(Ask::Solver(solver::Action::Prepare));
+        }
         let stays = now.in_trial && goes_on;
         if *trial != Trial::Off && !stays {
             self.waiting.push_back(Ask::ToggleTrial);

@@ -66,7 +66,7 @@ impl LumenApp {
             self.panels.all().into_iter().filter_map(|panel| panel.entry(self.now(mode))).collect();
         // A trial ends by its own buttons or by the first tab, not by a click beside it. A surface on its way in may yet give
         // back what it covers.
-        let is_free = matches!(mode, Mode::Method | Mode::Compare) && !self.state.awaits_levels();
+        let is_free = matches!(mode, Mode::Method | Mode::Compare | Mode::Solver) && !self.state.awaits_levels();
         for entry in entries.iter_mut().filter(|entry| entry.group == Group::Tabs && !entry.is_open) {
             entry.is_enabled &= is_free;
         }
@@ -90,6 +90,7 @@ impl LumenApp {
             self.act(Action::Trial(trial::Action::Close), ctx);
         }
         self.state.comparison.set_open(false);
+        self.state.preparation.is_open = false;
         let beside = match self.beside {
             Beside::Nothing => return,
             Beside::Vessels => Action::Vessels(vessels::Action::Toggle),
@@ -202,7 +203,11 @@ impl LumenApp {
             Action::Save(format) => state.save(format, self.platform.link()),
             Action::Axes(axes) => self.recovery.choose_axes(state, axes),
             Action::SaveAxes(axes) => state.written_axes = axes,
-            Action::Set(settings) => state.settings = *settings,
+            Action::Set(settings) => {
+                // Who changes the level looks at the level.
+                state.preparation.is_open &= *settings == state.settings;
+                state.settings = *settings;
+            }
             Action::Undo => state.undo(self.platform.link()),
             Action::Redo => state.redo(self.platform.link()),
             Action::Cancel => {

@@ -6,6 +6,7 @@ use super::LumenApp;
 use crate::app::action::Action;
 use crate::app::drawer::Content;
 use crate::app::mode::{Beside, Mode, Now, Place};
+use crate::app::solver::SolverView;
 use crate::app::state::State;
 use crate::app::views::{Clicked, Over, Subject};
 use crate::app::{assist, bar, collapses, invitation, panel, row, theme, verdict};
@@ -303,6 +304,7 @@ impl LumenApp {
         }
         self.state.show_level();
         ui.push_id("trial", |ui| self.panels.trial.show_step(ui, &self.state, asked));
+        ui.push_id("solver", |ui| SolverView::show_step(ui, &self.state, asked));
         ui.push_id("result", |ui| panel::result(ui, &self.state, asked));
     }
 

@@ -1,6 +1,6 @@
 //! What of a scan is the vessel, to be chosen: threshold or label, box, slice; and the way to its surface.
 
-use egui::{ComboBox, DragValue, RichText, Role, Stroke, Ui, Vec2};
+use egui::{Color32, ComboBox, DragValue, RichText, Role, Sense, Stroke, Ui, Vec2};
 
 use super::state::OpenScan;
 use super::{Action, histogram, slices_panel};
@@ -149,27 +149,43 @@ fn volumes(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
 }
 
 fn labels(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
+    let named = |label: i64| scan.opened.names.iter().find(|named| named.value == label);
     let text = |selection| match selection {
-        Selection::Label(label) => {
-            let named = scan.opened.names.iter().find(|(known, _)| *known == label);
-            match named {
-                Some((_, name)) => say!("scan-label-named", label = label.to_string(), name = name),
-                None => say!("scan-label", label = label.to_string()),
-            }
-        }
+        Selection::Label(label) => match named(label) {
+            Some(named) => say!("scan-label-named", label = label.to_string(), name = &named.name),
+            None => say!("scan-label", label = label.to_string()),
+        },
         Selection::AnyLabel | Selection::EachLabel | Selection::Threshold(_) => say!("scan-all-labels"),
+    };
+    let colour = |selection| match selection {
+        Selection::Label(label) => named(label)?.colour.map(|[r, g, b]| Color32::from_rgb(r, g, b)),
+        _ => None,
     };
     let known = scan.opened.survey.labels.iter().map(|label| Selection::Label(label.value));
     row(ui, &say!("scan-vessel"), &say!("scan-vessel-help"), |ui| {
+        swatch(ui, colour(scan.selection));
         let list = ComboBox::from_id_salt("label").selected_text(text(scan.selection)).show_ui(ui, |ui| {
             for selection in std::iter::once(Selection::AnyLabel).chain(known) {
-                if ui.selectable_label(selection == scan.selection, text(selection)).clicked() {
+                let is_clicked = ui.horizontal(|ui| {
+                    swatch(ui, colour(selection));
+                    ui.selectable_label(selection == scan.selection, text(selection)).clicked()
+                });
+                if is_clicked.inner {
                     asked.push(Action::Select(selection));
                 }
             }
         });
         name(&list.response, Role::ComboBox, &say!("scan-vessel-label"));
     });
+}
+
+/// The colour of a label, if it has one; its name stands beside it.
+fn swatch(ui: &mut Ui, colour: Option<Color32>) {
+    const SIDE: f32 = 12.0;
+    if let Some(colour) = colour {
+        let (place, _) = ui.allocate_exact_size(Vec2::splat(SIDE), Sense::hover());
+        ui.painter().rect_filled(place, 2.0, colour);
+    }
 }
 
 fn bounds(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {

@@ -52,6 +52,7 @@ impl State {
             }
             // The comparison may have been given up meanwhile.
             Event::Progress { work: Work::Comparing, .. } if !self.comparison.is_busy() => {}
+            Event::Progress { work: Work::Preparing, .. } if !self.preparation.is_busy() => {}
             Event::Progress { work, fraction } => self.work = Some((work, fraction)),
             Event::Compared(compared) => {
                 self.comparison.receive(*compared);
@@ -59,6 +60,11 @@ impl State {
             }
             Event::Differed(differed) => {
                 self.comparison.receive_difference(*differed);
+                self.rest();
+            }
+            Event::Prepared(ready) => {
+                self.preparation.receive(*ready);
+                self.comparison.set_open(self.comparison.is_open() && !self.preparation.is_open);
                 self.rest();
             }
             Event::Averaged(averaged) => {
@@ -96,7 +102,7 @@ impl State {
                     }
                 }
                 if let Some(percent) = went_back {
-                    self.tell(&say!("app-gone-back", percent = decimal(percent, 1)));
+                    self.mention(&say!("app-gone-back", percent = decimal(percent, 1)));
                 }
             }
             Event::Deviated(deviated) => {

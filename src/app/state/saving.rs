@@ -3,6 +3,7 @@
 use super::State;
 use crate::engine::{Command, Link};
 use crate::io::{Axes, Format};
+use crate::prepare::write::SolverFormat;
 use crate::say;
 use crate::vessel::CentrelineFormat;
 
@@ -25,6 +26,14 @@ impl State {
         let Some(document) = &self.document else { return };
         let name = format!("{}-centrelines.{}", document.stem(), format.extension());
         self.ask_for_file(&name.clone(), Command::WriteCentrelines { name, format }, link);
+    }
+
+    /// Asks for the surface that was made ready for a solver as a file.
+    pub fn save_for_solver(&mut self, format: SolverFormat, link: &mut dyn Link) {
+        let (Some(document), Some(made)) = (&self.document, &self.preparation.made) else { return };
+        let name = format!("{}-solver.{}", document.stem(), format.extension());
+        let (id, names) = (made.id, self.preparation.names());
+        self.ask_for_file(&name.clone(), Command::WriteSolver { id, name, format, names }, link);
     }
 
     /// The calibre of each vessel as a file, a row a place: its name and its bytes.

@@ -1,11 +1,11 @@
 //! What reduction does to the wire, rate by rate: a table, and the deviation of the tip beside its noise as a plot.
 
-use egui::{Grid, RichText, Role, ScrollArea, Ui};
+use egui::{RichText, Role, ScrollArea, Ui};
 use egui_plot::{AxisHints, GridMark, LineStyle, Plot, PlotPoints};
 
 use super::marks;
 use super::tables::{Outcome, Row};
-use super::tables_window::aligned;
+use super::tables_window::{grid, tabbed};
 use crate::app::assist::name;
 use crate::app::plot_file::Drawn;
 use crate::app::still_plot::{curve, marks as grid_marks, still, tick};
@@ -52,22 +52,7 @@ pub(super) fn show(ui: &mut Ui, rows: &[Row]) {
 }
 
 fn table(ui: &mut Ui, rows: &[Row]) {
-    Grid::new("sweep").num_columns(COLUMNS.len()).striped(true).spacing([14.0, 6.0]).show(ui, |ui| {
-        for (i, (head, help)) in COLUMNS.into_iter().enumerate() {
-            aligned(ui, (i, COLUMNS.len()), |ui| {
-                ui.label(RichText::new(head.say()).small().strong()).on_hover_text(help.say());
-            });
-        }
-        ui.end_row();
-        for row in rows {
-            for (i, cell) in cells(row).into_iter().enumerate() {
-                aligned(ui, (i, COLUMNS.len()), |ui| {
-                    ui.label(cell);
-                });
-            }
-            ui.end_row();
-        }
-    });
+    grid(ui, "sweep", &COLUMNS, rows.iter().map(cells));
 }
 
 /// The table as text; nothing where there is none.
@@ -75,9 +60,7 @@ pub(super) fn text(rows: &[Row]) -> String {
     if rows.iter().all(|row| row.sweep.is_none()) {
         return String::new();
     }
-    let line = |cells: &[String]| format!("{}\n", cells.join("\t"));
-    let heads: Vec<String> = COLUMNS.iter().map(|(head, _)| head.say()).collect();
-    format!("\n{}{}", line(&heads), rows.iter().map(|row| line(&cells(row))).collect::<String>())
+    format!("\n{}", tabbed(&COLUMNS, rows.iter().map(cells)))
 }
 
 fn cells(row: &Row) -> [String; COLUMNS.len()] {

@@ -66,22 +66,8 @@ fn content(ui: &mut Ui, tables: &Tables, asked: &mut Vec<Action>) {
     };
     ui.label(RichText::new(format!("{what} {}", say!("trial-tables-brackets"))).weak());
     ScrollArea::horizontal().show(ui, |ui| {
-        Grid::new("tables").num_columns(COLUMNS.len()).striped(true).spacing([14.0, 6.0]).show(ui, |ui| {
-            for (i, (head, help)) in COLUMNS.into_iter().enumerate() {
-                aligned(ui, (i, COLUMNS.len()), |ui| {
-                    ui.label(RichText::new(head.say()).small().strong()).on_hover_text(help.say());
-                });
-            }
-            ui.end_row();
-            for row in &tables.rows {
-                for (i, cell) in cells(row, tables.printed).into_iter().enumerate() {
-                    aligned(ui, (i, COLUMNS.len()), |ui| {
-                        ui.label(cell);
-                    });
-                }
-                ui.end_row();
-            }
-        });
+        let rows = tables.rows.iter().map(|row| cells(row, tables.printed));
+        grid(ui, "tables", &COLUMNS, rows);
     });
     for row in &tables.rows {
         if let Outcome::Failed(why) = &row.outcome {
@@ -108,21 +94,50 @@ fn content(ui: &mut Ui, tables: &Tables, asked: &mut Vec<Action>) {
     sweep::show(ui, &tables.rows);
 }
 
-/// To the right in its column; the last column has no right side of its own.
-pub(super) fn aligned(ui: &mut Ui, (column, columns): (usize, usize), content: impl FnOnce(&mut Ui)) {
-    if column + 1 == columns {
-        content(ui);
-    } else {
-        ui.with_layout(Layout::right_to_left(Align::Center), content);
-    }
+/// A table: heads, each with what it says, and cells to the right in their columns; the last column has no right side of its
+/// own.
+pub(super) fn grid<const N: usize>(
+    ui: &mut Ui,
+    id: &str,
+    columns: &[(Key, Key); N],
+    rows: impl Iterator<Item = [String; N]>,
+) {
+    let aligned = |ui: &mut Ui, column: usize, content: &dyn Fn(&mut Ui)| {
+        if column + 1 == N {
+            content(ui);
+        } else {
+            ui.with_layout(Layout::right_to_left(Align::Center), content);
+        }
+    };
+    Grid::new(id).num_columns(N).striped(true).spacing([14.0, 6.0]).show(ui, |ui| {
+        for (i, (head, help)) in columns.iter().enumerate() {
+            aligned(ui, i, &|ui| {
+                ui.label(RichText::new(head.say()).small().strong()).on_hover_text(help.say());
+            });
+        }
+        ui.end_row();
+        for row in rows {
+            for (i, cell) in row.iter().enumerate() {
+                aligned(ui, i, &|ui| {
+                    ui.label(cell);
+                });
+            }
+            ui.end_row();
+        }
+    });
+}
+
+/// The same as text, a tab between columns.
+pub(super) fn tabbed<const N: usize>(columns: &[(Key, Key); N], rows: impl Iterator<Item = [String; N]>) -> String {
+    let line = |cells: &[String]| format!("{}\n", cells.join("\t"));
+    let heads: Vec<String> = columns.iter().map(|(head, _)| head.say()).collect();
+    line(&heads) + &rows.map(|row| line(&row)).collect::<String>()
 }
 
 /// The tables as text.
 fn text(tables: &Tables) -> String {
-    let line = |cells: &[String]| format!("{}\n", cells.join("\t"));
-    let heads: Vec<String> = COLUMNS.iter().map(|(head, _)| head.say()).collect();
-    let rows = tables.rows.iter().map(|row| line(&cells(row, tables.printed)));
-    format!("{}\n{}{}", tables.name, line(&heads), rows.collect::<String>())
+    let rows = tables.rows.iter().map(|row| cells(row, tables.printed));
+    format!("{}\n{}", tables.name, tabbed(&COLUMNS, rows))
 }
 
 /// Frames a second where 1/60 s takes so many ms to simulate.

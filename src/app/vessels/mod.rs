@@ -85,6 +85,7 @@ impl Panel for Vessels {
                     acting.then.push(Ask::Unmark);
                 } else {
                     acting.state.comparison.set_open(false);
+                    acting.state.preparation.is_open = false;
                     *acting.beside = Beside::Vessels;
                 }
             }
@@ -97,6 +98,7 @@ impl Panel for Vessels {
             }
             Action::ShowUnmeasured => {
                 acting.state.comparison.set_open(false);
+                acting.state.preparation.is_open = false;
                 *acting.beside = Beside::Vessels;
                 let found = acting.state.calibre().and_then(|calibre| calibre.found.as_ref().ok());
                 if let Some((branch, station)) = found.and_then(Certificate::least_measured) {

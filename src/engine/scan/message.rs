@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::link::Link;
 use super::super::surfaces::surface;
-use crate::io::{Axes, Offer, ThresholdReport, Warning};
+use crate::io::{Axes, LabelName, Offer, ThresholdReport, Warning};
 use crate::mesh::TriMesh;
 use crate::transfer::bulk;
 use crate::volume::{Axis, Cut, HalfWay, Selection, Survey};
@@ -138,8 +138,8 @@ pub struct OpenedScan {
     pub offers: Vec<Offer>,
     /// The number of this one.
     pub taken: usize,
-    /// Names of labels.
-    pub names: Vec<(i64, String)>,
+    /// Names and colours of labels.
+    pub names: Vec<LabelName>,
 }
 
 /// What the engine has to say.
@@ -206,4 +206,9 @@ pub enum ScanEvent {
     },
     /// What was being made was stopped.
     Cancelled,
+}
+
+/// Whether this is the head of a [`ScanEvent::Progress`]: a message begins with the place of its variant.
+pub fn is_progress(head: &[u8]) -> bool {
+    head.first() == Some(&1)
 }

@@ -17,6 +17,6 @@ mod tests;
 
 #[cfg(feature = "scans")]
 pub use engine::ScanEngine;
-pub use message::{Contents, NamedFile, OpenedScan, ScanCommand, ScanEvent, ScanLink, ScanWork};
+pub use message::{Contents, NamedFile, OpenedScan, ScanCommand, ScanEvent, ScanLink, ScanWork, is_progress};
 #[cfg(feature = "scans")]
 pub use shelf::Shelf;

@@ -29,7 +29,9 @@ fn run(engine: &mut ScanEngine, command: ScanCommand) -> Vec<ScanEvent> {
     while engine.advance(0.0).is_some() {}
     let events: Vec<ScanEvent> = std::iter::from_fn(|| engine.poll()).collect();
     for event in &events {
-        assert_eq!(sent(event).1.unwrap(), *event);
+        let (head, arrived) = sent(event);
+        assert_eq!(is_progress(&head), ScanEngine::is_passing(event));
+        assert_eq!(arrived.unwrap(), *event);
     }
     events.into_iter().filter(|event| !ScanEngine::is_passing(event)).collect()
 }

@@ -11,7 +11,6 @@ use super::message::TrialEvent;
 use super::start::start;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
-use crate::trial::STEP;
 use crate::trial::compare::{Noise, SHUFFLES, TrialComparison};
 use crate::trial::course::{Course, TrialError};
 use crate::trial::frame::Progress;
@@ -183,15 +182,11 @@ impl Jobs {
 impl Job {
     /// The part that is done.
     fn fraction(&self) -> f32 {
-        let of = |trial: &Trial| {
-            let all = trial.replayed_steps().map_or(trial.limit_s() / STEP, |all| all as f64);
-            trial.simulation().steps() as f64 / all.max(1.0)
-        };
         match &self.work {
-            Work::Measure(trial) => of(trial) as f32,
+            Work::Measure(trial) => trial.part_done() as f32,
             Work::Compare(trial, comparing) => {
                 let before = comparing.orders + u64::from(comparing.original.is_some());
-                ((before as f64 + of(trial)) / (SHUFFLES + 1) as f64) as f32
+                ((before as f64 + trial.part_done()) / (SHUFFLES + 1) as f64) as f32
             }
             Work::Sweep(sweeping) => {
                 (sweeping.found.len() as f32 + sweeping.runs.fraction()) / sweeping.seeds.max(1) as f32

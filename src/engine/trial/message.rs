@@ -300,9 +300,9 @@ impl TrialEvent {
     }
 }
 
-/// Whether this is the line of a frame, which the next frame makes useless.
-pub fn is_frame(line: &str) -> bool {
-    line.starts_with("{\"Frame\"")
+/// Whether this is the head of a frame, which the next frame makes useless: a message begins with the place of its variant.
+pub fn is_frame(head: &[u8]) -> bool {
+    head.first() == Some(&3)
 }
 
 /// With a capital letter and a full stop.
@@ -399,8 +399,8 @@ mod tests {
             TrialEvent::Failed { message },
         ];
         for event in events {
-            let (line, arrived) = sent(&event);
-            assert_eq!(is_frame(&line), matches!(event, TrialEvent::Frame { .. }));
+            let (head, arrived) = sent(&event);
+            assert_eq!(is_frame(&head), matches!(event, TrialEvent::Frame { .. }));
             assert_eq!(arrived.unwrap(), event);
         }
     }

@@ -24,10 +24,15 @@ fn segmentations_become_labels_with_names_or_volumes_where_they_overlap() {
         } else {
             pixels.iter().map(|&inside| if inside { 100 } else { 99 }).collect()
         };
-        let segments = [("1", "aorta"), ("2", "vein")].map(|(number, name)| {
-            let number = element(0x0062, 0x0004, "US", &short(number.parse().unwrap()), EXPLICIT);
-            item(&[number, element(0x0062, 0x0005, "LO", &text(name), EXPLICIT)].concat())
-        });
+        // 3D Slicer's colour of arteries, and full red: in CIE L*a*b* of the white D50 (54.29, 80.81, 69.89).
+        let segments = [(1, "aorta", [37_457, 44_450, 41_893]), (2, "vein", [35_580, 53_665, 50_856u16])].map(
+            |(number, name, lab)| {
+                let number = element(0x0062, 0x0004, "US", &short(number), EXPLICIT);
+                let name = element(0x0062, 0x0005, "LO", &text(name), EXPLICIT);
+                let colour = element(0x0062, 0x000D, "US", &lab.map(u16::to_le_bytes).concat(), EXPLICIT);
+                item(&[number, name, colour].concat())
+            },
+        );
         let bits = short(if is_binary { 1 } else { 8 });
         let numbers = order.map(|(k, _)| k);
         let file = frames(&numbers, groups(&[ORIENTED, SPACED]), each.collect(), padded(bytes));
@@ -35,7 +40,7 @@ fn segmentations_become_labels_with_names_or_volumes_where_they_overlap() {
         let file = file.also(0x0062, 0x0001, "CS", text(kind)).also(0x0062, 0x000E, "US", short(200));
         vec![("a", file.also(0x0062, 0x0002, "SQ", segments.concat()).bytes())]
     };
-    let names = [(1, "aorta".to_owned()), (2, "vein".to_owned())];
+    let names = [label_name(1, "aorta", Some([216, 101, 79])), label_name(2, "vein", Some([255, 0, 0]))];
     for kind in ["BINARY", "FRACTIONAL"] {
         let scan = open(&segmentation(|segment, [i, ..]| if segment == 1 { i < 2 } else { i > 4 }, kind)).unwrap();
         assert_eq!(scan.grid.geometry().size, SIZE, "{kind}");
@@ -89,14 +94,14 @@ fn segments_of_one_number_in_two_files_are_two_and_a_file_opened_twice_is_one() 
     let (aorta, vein) = (named(0, "aorta ", "1.1"), named(3, "vein", "1.2"));
     let scan = open(&[("a", aorta.clone()), ("b", vein.clone())]).unwrap();
     assert!(scan.warnings.is_empty(), "{:?}", scan.warnings);
-    assert_eq!(scan.names, [(1, "aorta".to_owned()), (2, "vein".to_owned())]);
+    assert_eq!(scan.names, [label_name(1, "aorta", None), label_name(2, "vein", None)]);
     assert_eq!([0, 1, 3].map(|i| scan.grid.value([i, 0, 2])), [1.0, 0.0, 2.0]);
     // Where they overlap, too.
     let files = vec![("a", aorta.clone()), ("b", named(0, "vein", "1.2"))];
     let second = open_volume(&files, Some(1)).unwrap();
     assert_eq!((second.offers.len(), second.offers[1].slices, second.grid.value([0, 0, 0])), (2, 3, 2.0));
     let twice = open(&[("a", aorta.clone()), ("b", aorta)]).unwrap();
-    assert_eq!((twice.names, twice.offers.len()), (vec![(1, "aorta".to_owned())], 1));
+    assert_eq!((twice.names, twice.offers.len()), (vec![label_name(1, "aorta", None)], 1));
     assert_eq!(in_english(&twice.warnings).len(), 1, "three slices are there twice");
 }
 
@@ -121,7 +126,7 @@ fn segments_that_overlap_share_their_frames() {
 fn names_of_segments_are_in_the_letters_that_the_file_names() {
     for (letters, name) in [("ISO_IR 100", &b"Gef\xE4\xDF "[..]), ("ISO_IR 192", "Gef\u{e4}\u{df}".as_bytes())] {
         let file = segment_file(0, &padded(name.to_vec()), &[0.0, 2.0], &[]).also(0x0008, 0x0005, "CS", text(letters));
-        assert_eq!(open(&[("a", file.bytes())]).unwrap().names, [(1, "Gef\u{e4}\u{df}".to_owned())], "{letters}");
+        assert_eq!(open(&[("a", file.bytes())]).unwrap().names, [label_name(1, "Gef\u{e4}\u{df}", None)], "{letters}");
     }
 }
 

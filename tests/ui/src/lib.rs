@@ -3,8 +3,10 @@
 
 #![allow(clippy::disallowed_methods, reason = "it makes surfaces to look at")]
 
+mod first;
 mod memory;
 pub mod told;
+mod unseen;
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -19,14 +21,16 @@ use lumen::render::Fault;
 
 pub use self::memory::{Kept, Memory};
 use self::memory::{MemoryPlatform, platform};
+use self::unseen::Unseen;
+pub use self::unseen::seen;
 
 /// A window on a desktop, in points.
 pub const DESKTOP: [f32; 2] = [1280.0, 800.0];
 /// That of a phone.
 pub const PHONE: [f32; 2] = [390.0, 844.0];
 
-/// The app in a window of `size` points that is not there, drawn by a real (software) graphics device. Its samples are
-/// [coarse](Memory::coarse_samples).
+/// The app in a window of `size` points that is not there; nothing is drawn in it, unless it is opened in [`seen`]. Its samples
+/// are [coarse](Memory::coarse_samples).
 pub fn app(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     // What egui_kittest takes by default.
     app_at(size, 0.25)
@@ -41,6 +45,13 @@ pub fn app_at(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<R
 pub fn app_in_full(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     let (platform, memory) = platform();
     memory.borrow_mut().coarse_samples = None;
+    app_on((platform, memory), size, 0.25)
+}
+
+/// [`app`] whose engine works for so long in each frame.
+pub fn slow_app(size: [f32; 2], slice: Duration) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    let (platform, memory) = platform();
+    memory.borrow_mut().slice = slice;
     app_on((platform, memory), size, 0.25)
 }
 
@@ -104,12 +115,15 @@ fn app_on(
     size: [f32; 2],
     step_dt: f32,
 ) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
-    let harness = Harness::builder()
-        .with_size(size)
-        .with_max_steps(4000)
-        .with_step_dt(step_dt)
-        .wgpu()
-        .build_eframe(move |cc| LumenApp::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), Box::new(platform)));
+    let builder = Harness::builder().with_size(size).with_max_steps(4000).with_step_dt(step_dt);
+    let is_seen = unseen::is_seen();
+    let builder = if is_seen { builder.wgpu() } else { builder.renderer(Unseen::new()) };
+    let harness = builder.build_eframe(move |cc| {
+        let app = LumenApp::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), Box::new(platform));
+        // To fit letters to pixels takes half a second of each window where nothing is optimised.
+        cc.egui_ctx.all_styles_mut(|style| style.visuals.text_options.font_hinting &= is_seen);
+        app
+    });
     (harness, memory)
 }
 

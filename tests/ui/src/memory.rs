@@ -11,7 +11,9 @@ use lumen::app::{
 };
 use lumen::engine::scan::{ScanCommand, ScanEngine, ScanEvent, ScanLink};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
-use lumen::engine::{Command, Engine, Event, Link, Machine, TrialEngine};
+use lumen::engine::{Command, Event, Link, Machine, TrialEngine};
+
+use crate::first::{FirstEngine, SLICE};
 
 /// What the test sees of the platform.
 #[derive(Default)]
@@ -75,7 +77,8 @@ pub struct Kept {
 
 /// A platform of plain memory.
 pub(crate) struct MemoryPlatform {
-    engine: Engine,
+    /// `None` until something is asked.
+    engine: Option<FirstEngine>,
     has_advanced: bool,
     trial: MemoryTrial,
     scans: MemoryScans,
@@ -189,22 +192,26 @@ impl Link<TrialCommand, TrialEvent> for MemoryTrial {
 
 impl Link for MemoryPlatform {
     fn send(&mut self, command: Command) {
-        self.engine.handle(command);
+        match &mut self.engine {
+            Some(engine) => engine.handle(command),
+            None => self.engine = Some(FirstEngine::asked_first(command)),
+        }
     }
 
     fn poll(&mut self) -> Option<Event> {
+        let engine = self.engine.as_mut()?;
         // One slice a frame: the app listens until there is nothing more to hear.
         if self.memory.borrow().runs && !self.has_advanced {
-            self.engine.advance(self.memory.borrow().slice);
+            engine.advance(self.memory.borrow().slice);
             self.has_advanced = true;
         }
-        let event = self.engine.poll();
+        let event = engine.poll();
         self.has_advanced &= event.is_some();
         event
     }
 
     fn restart(&mut self) {
-        self.engine = Engine::new();
+        self.engine = Some(FirstEngine::new());
         self.memory.borrow_mut().engines += 1;
     }
 
@@ -339,16 +346,15 @@ const COARSE: u32 = 10_000;
 pub(crate) fn platform() -> (MemoryPlatform, Rc<RefCell<Memory>>) {
     let memory = Memory {
         runs: true,
-        coarse_samples: std::env::var_os("LUMEN_LONG").is_none().then_some(COARSE),
-        slice: Duration::from_millis(50),
+        coarse_samples: (!lumen_test_support::is_long()).then_some(COARSE),
+        slice: SLICE,
         engines: 1,
         ..Memory::default()
     };
     let memory = Rc::new(RefCell::new(memory));
     let trial = MemoryTrial { engine: TrialEngine::new(), now_s: 0.0, has_advanced: false, memory: memory.clone() };
     let scans = MemoryScans::default();
-    let engine = Engine::new();
     let platform =
-        MemoryPlatform { engine, has_advanced: false, trial, scans, next: Vec::new(), memory: memory.clone() };
+        MemoryPlatform { engine: None, has_advanced: false, trial, scans, next: Vec::new(), memory: memory.clone() };
     (platform, memory)
 }

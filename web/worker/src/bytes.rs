@@ -17,6 +17,12 @@ extern "C" {
 
     #[wasm_bindgen(constructor, catch, js_class = "Uint8Array")]
     fn over(buffer: &JsValue) -> Result<Bytes, JsValue>;
+
+    #[wasm_bindgen(js_name = ArrayBuffer)]
+    type Buffer;
+
+    #[wasm_bindgen(method, catch)]
+    fn transfer(this: &Buffer, length: u32) -> Result<JsValue, JsValue>;
 }
 
 /// A copy of `bytes` outside the program's memory.
@@ -37,6 +43,12 @@ pub fn copied(bytes: &[u8]) -> Result<Uint8Array, JsValue> {
 /// What the browser answers where it is no buffer.
 pub fn view(buffer: &JsValue) -> Result<Uint8Array, JsValue> {
     Bytes::over(buffer).map(Into::into)
+}
+
+/// Gives the memory of a buffer back at once: the collector of garbage would take its time to, and that of a frame.
+pub fn give_back(buffer: &Uint8Array) {
+    // Browsers of before 2024 have no such way; there it is collected.
+    let _ = JsValue::from(buffer.buffer()).unchecked_into::<Buffer>().transfer(0);
 }
 
 /// That there is no memory for so many bytes, as an exception.

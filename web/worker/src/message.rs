@@ -1,4 +1,4 @@
-//! A message as a script's values: a line of JSON and any number of byte buffers. There is no shared memory: each buffer is
+//! A message as a script's values: its head and any number of byte buffers. There is no shared memory: each buffer is
 //! copied once out of the sender's memory, transferred, and copied once into the receiver's.
 
 use js_sys::{Array, Uint8Array};
@@ -13,8 +13,8 @@ use crate::bytes;
 ///
 /// When the browser has no memory left for the copies.
 pub fn pack(message: &impl Message) -> Result<(Array, Array), JsValue> {
-    let (line, buffers) = transfer::encode(message, |array| Ok::<_, JsValue>(bytes::copied(array)?.buffer()))?;
-    let values = Array::of1(&JsValue::from_str(&line));
+    let (head, buffers) = transfer::encode(message, |array| Ok::<_, JsValue>(bytes::copied(array)?.buffer()))?;
+    let values = Array::of1(&bytes::copied(&head)?.buffer());
     let transfer = Array::new();
     for buffer in buffers {
         values.push(&buffer);
@@ -26,8 +26,8 @@ pub fn pack(message: &impl Message) -> Result<(Array, Array), JsValue> {
 /// A message that has arrived; its buffers are still outside this instance's memory.
 #[derive(Debug)]
 pub struct Received {
-    /// What it is, as a line of JSON.
-    line: String,
+    /// What it is.
+    head: Vec<u8>,
     buffers: Outside,
 }
 
@@ -39,14 +39,14 @@ impl Received {
     /// The reverse of [`pack`]; `None` for anything else.
     pub fn unpack(value: &JsValue) -> Option<Self> {
         let values: &Array = value.dyn_ref()?;
-        let line = values.get(0).as_string()?;
+        let head = bytes::view(&values.get(0)).ok()?.to_vec();
         let buffers = values.iter().skip(1).map(|buffer| bytes::view(&buffer).ok()).collect::<Option<_>>()?;
-        Some(Self { line, buffers: Outside(buffers) })
+        Some(Self { head, buffers: Outside(buffers) })
     }
 
-    /// What it is, as a line of JSON.
-    pub fn line(&self) -> &str {
-        &self.line
+    /// What it is, without its buffers.
+    pub fn head(&self) -> &[u8] {
+        &self.head
     }
 
     /// The message.
@@ -55,7 +55,13 @@ impl Received {
     ///
     /// When it is none such, or there is no memory left for it.
     pub fn read<M: Message>(self) -> Result<M, TransferError> {
-        transfer::decode(&self.line, self.buffers)
+        transfer::decode(&self.head, self.buffers)
+    }
+}
+
+impl Drop for Outside {
+    fn drop(&mut self) {
+        self.0.iter().for_each(bytes::give_back);
     }
 }
 

@@ -1,5 +1,5 @@
 //! What the JSON of a glTF file says beyond the structure that `gltf::json` has for it: attributes with names that the
-//! specification does not know, and views of buffers that meshopt has packed.
+//! specification does not know, views of buffers that meshopt has packed, and a version that is laid out otherwise.
 
 use std::collections::BTreeMap;
 
@@ -50,6 +50,14 @@ struct Extensions {
 pub(super) enum Stated {
     Packed(Packed),
     Damaged(IgnoredAny),
+}
+
+/// The version of a file that is laid out otherwise than 2, if it names one: a text, or a number in files of the first.
+pub(super) fn other_version(json: &[u8]) -> Option<u32> {
+    let root: serde_json::Value = serde_json::from_slice(json).ok()?;
+    let version = &root["asset"]["version"];
+    let text = version.as_str().map_or_else(|| version.to_string(), str::to_owned);
+    text.split('.').next()?.parse().ok().filter(|&major| major != 2)
 }
 
 impl Beyond {

@@ -22,7 +22,7 @@ use super::super::pace::{BYTES, NUMBERS, Pace};
 use super::super::problem::GltfProblem;
 use super::super::text::BASE64;
 use super::beyond::Stated;
-use super::{FORMAT, malformed};
+use super::{DRACO, FORMAT, draco, malformed};
 
 /// How many times its file a mesh can honestly be that meshopt has packed: of triangles twelve bytes become one or two.
 const HONEST: usize = 10;
@@ -189,7 +189,10 @@ impl<'a> Buffers<'a> {
 
     /// The items of an accessor as they stand in its view.
     fn stored(&self, root: &Root, accessor: &Accessor, layout: Layout, number: usize) -> Result<Items<'_>, ReadError> {
-        let no_data = || malformed(GltfProblem::AccessorEmpty { accessor: number });
+        // Some use it without saying that it is required.
+        let may_be_draco = root.extensions_used.iter().any(|name| name == DRACO);
+        let no_data =
+            || if may_be_draco { draco() } else { malformed(GltfProblem::AccessorEmpty { accessor: number }) };
         let view = accessor.buffer_view.ok_or_else(no_data)?;
         let offset = accessor.byte_offset.map_or(0, |at| at.0);
         self.window(root, view, offset, layout, number, accessor.normalized)

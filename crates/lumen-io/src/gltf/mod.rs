@@ -26,7 +26,7 @@ mod skin;
 mod unpack;
 mod write;
 
-use super::error::ReadError;
+use super::error::{Feature, ReadError};
 use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
 use super::problem::Problem;
 use super::text;
@@ -75,9 +75,18 @@ fn triangles(bytes: &[u8]) -> u64 {
 }
 
 const FORMAT: &str = "glTF";
+const DRACO: &str = "KHR_draco_mesh_compression";
 
 fn malformed(problem: impl Into<Problem>) -> ReadError {
     ReadError::malformed(FORMAT, problem)
+}
+
+fn unsupported(feature: Feature) -> ReadError {
+    ReadError::Unsupported { format: FORMAT, feature }
+}
+
+fn draco() -> ReadError {
+    unsupported(Feature::Extension { name: DRACO.to_owned() })
 }
 
 #[cfg(test)]

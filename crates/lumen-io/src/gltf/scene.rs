@@ -14,11 +14,11 @@ use super::super::problem::GltfProblem;
 use super::super::raw::RawSurface;
 use super::super::text;
 use super::super::warnings::Warning;
-use super::beyond::Beyond;
+use super::beyond::{self, Beyond};
 use super::buffers::Buffers;
 use super::primitive::Collected;
 use super::skin::{Joints, Placement};
-use super::{FORMAT, malformed};
+use super::{DRACO, FORMAT, draco, malformed, unsupported};
 
 /// Collects every triangle of the scene that opens first, through its tree of nodes.
 pub(super) async fn read_scene(
@@ -40,10 +40,13 @@ pub(super) async fn read_scene(
     // milliseconds for a million triangles, and twice, for the names.
     let root: Root = deserialize::from_slice(json).map_err(|error| {
         let (line, column) = (error.line(), error.column());
-        malformed(GltfProblem::Json { line, column })
+        beyond::other_version(json).map_or_else(
+            || malformed(GltfProblem::Json { line, column }),
+            |version| unsupported(Feature::Version { version }),
+        )
     })?;
-    if let Some(feature) = root.extensions_required.iter().find(|name| *name == "KHR_draco_mesh_compression") {
-        return Err(ReadError::Unsupported { format: FORMAT, feature: Feature::Extension { name: feature.clone() } });
+    if root.extensions_required.iter().any(|name| name == DRACO) {
+        return Err(draco());
     }
     pace.rest(0.0).await;
     let mut beyond = Beyond::of(json);

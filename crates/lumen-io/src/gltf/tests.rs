@@ -104,6 +104,25 @@ fn draco_is_refused_by_its_name() {
     let text = square("{\"mesh\":0}", "").replacen('{', &format!("{{\"extensionsRequired\":[\"{name}\"],"), 1);
     let error = read(&text).err().unwrap().to_string();
     assert_eq!(error, format!("The glTF file uses {name}, which Lumen does not read."));
+    // Used, not required, and all data in it: BoxDraco.gltf of glTF-Transform.
+    let text = square("{\"mesh\":0}", "").replacen('{', &format!("{{\"extensionsUsed\":[\"{name}\"],"), 1);
+    assert!(read(&text).is_ok());
+    let error = read(&text.replacen("\"bufferView\":0,", "", 1)).err().unwrap().to_string();
+    assert_eq!(error, format!("The glTF file uses {name}, which Lumen does not read."));
+}
+
+#[test]
+fn a_file_of_the_first_version_is_refused_by_it() {
+    // Objects by name where version 2 has lists, as in glTF 1.0; the version as a text and as a number.
+    for version in ["\"1.0\"", "\"1.0.1\"", "1", "1.0"] {
+        let text = format!("{{\"asset\":{{\"version\":{version}}},\"meshes\":{{\"a\":{{\"primitives\":[]}}}}}}");
+        let error = read(&text).err().unwrap().to_string();
+        assert_eq!(error, "The glTF file uses version 1, which Lumen does not read.");
+    }
+    for version in ["\"2.0\"", "\"two\"", "null"] {
+        let text = format!("{{\"asset\":{{\"version\":{version}}},\"meshes\":{{\"a\":{{\"primitives\":[]}}}}}}");
+        assert!(read(&text).err().unwrap().to_string().contains("its JSON is wrong"));
+    }
 }
 
 /// A bent strip of 16 triangles, from 1 m to -1 m, that the encoder of the npm package `meshoptimizer` has packed: places in

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::offer::{Offer, VolumeField};
+use super::super::offer::{LabelName, Offer, VolumeField};
 use super::super::problem::ScanProblem;
 use super::error::ScanError;
 use super::outline::Offers;
@@ -13,8 +13,7 @@ use lumen_volume::{SampleType, Samples};
 /// A segment: a label of a layer.
 pub(super) struct Segment {
     pub(super) layer: usize,
-    pub(super) label: i64,
-    pub(super) name: String,
+    pub(super) named: LabelName,
 }
 
 /// What a header says of the layers in its numbers, of which one of each follows the other.
@@ -34,7 +33,7 @@ impl Default for Layers {
 /// The numbers of one map.
 pub(super) struct Unfolded {
     pub(super) samples: Samples,
-    pub(super) names: Vec<(i64, String)>,
+    pub(super) names: Vec<LabelName>,
     pub(super) offers: Offers,
     pub(super) taken: usize,
 }
@@ -53,14 +52,14 @@ impl Layers {
             return Err(ScanError::NoSuchVolume { number: taken + 1, count: volumes });
         }
         if count <= 1 {
-            let names = self.segments.into_iter().map(|segment| (segment.label, segment.name)).collect();
+            let names = self.segments.into_iter().map(|segment| segment.named).collect();
             return Ok(Unfolded { samples, names, offers: Offers::default(), taken });
         }
         if overlaps {
             let map = map(samples.sample_type(), points, |point| at(point, taken))?;
             let offers = Offers { list: (0..count).map(|layer| self.offer(layer, slices)).collect() };
             let of_layer = self.segments.into_iter().filter(|segment| segment.layer == taken);
-            let names = of_layer.map(|segment| (segment.label, segment.name)).collect();
+            let names = of_layer.map(|segment| segment.named).collect();
             return Ok(Unfolded { samples: map, names, offers, taken });
         }
         let numbers = self.numbers(&samples, format)?;
@@ -69,9 +68,11 @@ impl Layers {
             let found = inside.find(|&(_, stored)| stored != 0.0);
             found.map_or(0.0, |(layer, stored)| numbers[layer].get(&stored.to_bits()).map_or(0.0, |&n| n.into()))
         })?;
-        let number = |segment: &Segment| numbers[segment.layer].get(&(segment.label as f64).to_bits()).copied();
+        let number = |segment: &Segment| numbers[segment.layer].get(&(segment.named.value as f64).to_bits()).copied();
         let names = self.segments.iter().filter(|segment| segment.layer < count);
-        let names = names.filter_map(|segment| Some((number(segment)?.into(), segment.name.clone()))).collect();
+        let names =
+            names.filter_map(|segment| Some(LabelName { value: number(segment)?.into(), ..segment.named.clone() }));
+        let names = names.collect();
         Ok(Unfolded { samples: map, names, offers: Offers::default(), taken })
     }
 
@@ -82,7 +83,7 @@ impl Layers {
         let mut numbers = vec![BTreeMap::new(); self.count];
         let mut labels: Vec<(usize, f64)> = Vec::new();
         let stored = (0..samples.len()).map(|at| (at % self.count, samples.stored(at)));
-        let of_segments = self.segments.iter().map(|segment| (segment.layer, segment.label as f64));
+        let of_segments = self.segments.iter().map(|segment| (segment.layer, segment.named.value as f64));
         for (layer, label) in of_segments.filter(|&(layer, _)| layer < self.count).chain(stored) {
             if label != 0.0 && !numbers[layer].contains_key(&label.to_bits()) {
                 labels.push((layer, label));
@@ -104,7 +105,8 @@ impl Layers {
 
     /// What a layer is told by: its number and its segments.
     fn offer(&self, layer: usize, slices: usize) -> Offer {
-        let names = self.segments.iter().filter(|segment| segment.layer == layer).map(|segment| segment.name.as_str());
+        let names =
+            self.segments.iter().filter(|segment| segment.layer == layer).map(|segment| segment.named.name.as_str());
         let value = std::iter::once((layer + 1).to_string()).chain(names.map(str::to_owned));
         Offer { series: 0, slices, by: Some(VolumeField::Layer), value: value.collect::<Vec<_>>().join(" ") }
     }

@@ -10,6 +10,7 @@ use glam::{DMat3, DVec3};
 use super::super::axes::Axes;
 use super::super::error::Feature;
 use super::super::numbers::Scalar;
+use super::super::offer::LabelName;
 use super::super::problem::ScanProblem;
 use super::super::text;
 use super::super::warnings::{ScanWarning, Warning};
@@ -86,17 +87,25 @@ impl<'a> Header<'a> {
         self.get(key).map(|value| list(value).filter(|found| found.len() == count).ok_or_else(problem)).transpose()
     }
 
-    /// The segments of a segmentation: layer, label and name of each.
+    /// The segments of a segmentation: layer, label, name and colour of each.
     fn segments(&self) -> Vec<Segment> {
         let segment = |number: usize| {
             let get = |what: &str| self.remark(&format!("Segment{number}_{what}"));
             let whole = |what: &str| get(what).and_then(|value| value.parse::<u32>().ok());
             let name = get("Name").or_else(|| get("ID"))?.chars().take(128).collect();
-            let (layer, label) = (whole("Layer").unwrap_or(0) as usize, whole("LabelValue").unwrap_or(1).into());
-            Some(Segment { layer, label, name })
+            let (layer, value) = (whole("Layer").unwrap_or(0) as usize, whole("LabelValue").unwrap_or(1).into());
+            Some(Segment { layer, named: LabelName { value, name, colour: get("Color").and_then(colour) } })
         };
         (0..MOST_SEGMENTS).map_while(segment).collect()
     }
+}
+
+/// A colour by its three parts, each from 0 to 1.
+fn colour(text: &str) -> Option<[u8; 3]> {
+    let parts: Vec<f64> = text.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
+    let parts: [f64; 3] = parts.try_into().ok()?;
+    let is_colour = parts.iter().all(|part| (0.0..=1.0).contains(part));
+    is_colour.then(|| parts.map(|part| (255.0 * part).round() as u8))
 }
 
 /// The axes of a grid among those of a file.

@@ -1,7 +1,7 @@
 //! What a header says of its volume, and the volume that comes of it with its numbers.
 
 use super::super::axes::Axes;
-use super::super::offer::Offer;
+use super::super::offer::{LabelName, Offer};
 use super::super::warnings::{ScanWarning, Warning};
 use super::error::ScanError;
 pub(super) use super::layers::{Layers, Segment};
@@ -25,8 +25,8 @@ pub struct Scan {
     pub offers: Vec<Offer>,
     /// Which of them this is.
     pub taken: usize,
-    /// Names of labels.
-    pub names: Vec<(i64, String)>,
+    /// Names and colours of labels.
+    pub names: Vec<LabelName>,
 }
 
 impl Scan {

@@ -309,6 +309,39 @@ lesson-wire-text =
     answer: Ein Lauf sagt das nicht: Schon eine andere Reihenfolge der Dreiecke ändert sie. „Mit der unreduzierten Oberfläche
       vergleichen“ misst den Unterschied gegen dieses Rauschen.
 
+lesson-solver = Vom Scan zum Löser
+lesson-solver-text =
+    lumen lesson 1
+    title: Vom Scan zum Löser
+
+    step: Leicht, aber nicht gleichmäßig
+    text: Die Stufe ist leicht und lässt jedem Gefäß sein Kaliber: genug für einen Draht. Ein Strömungslöser füllt das Gefäß mit
+      Tetraedern, und die sind so gut wie die Dreiecke, auf denen sie stehen.
+    sample: aorta
+    settings: reduction=90
+    view: anterior
+    look: das Drahtgitter: lange, schmale Dreiecke entlang der Gefäße.
+
+    step: Enden für eine Strömung
+    text: Jedes Ende ist senkrecht zum Gefäß geschnitten, um 5 Radien verlängert, als Rohr, das zum Kreis wird, und durch ein ebenes
+      Teil mit einem Namen geschlossen. Namen und Flächen stehen in Schritt 5 der Leiste.
+    sample: aorta
+    settings: reduction=90
+    show: solver
+    look: die farbigen Enden.
+    ask: Warum werden Enden verlängert?
+    answer: Die Strömung, die ein Löser an einem Ende bekommt, ist nicht die des Gefäßes. In der Verlängerung wird sie dazu.
+
+    step: Dreiecke nach dem Kaliber
+    text: Um jedes Gefäß gehen 12 Kanten, sodass ein dünnes kleine Dreiecke hat und ein weites große. Keines ist weit von
+      gleichseitig entfernt.
+    sample: aorta
+    settings: reduction=90
+    show: solver
+    look: das Drahtgitter, wo eine Nierenarterie die Aorta verlässt.
+    ask: Ein Vieleck mit 12 Kanten liegt in seinem Kreis. Wie viel der Fläche geht verloren?
+    answer: 4,5 %. Lumen bringt Ein- und Auslässe auf die Fläche zurück, die sie hatten; von der Wand erhalten mehr Kanten mehr.
+
 ## Das Glossar
 
 # Von jedem Eintrag das Wort, ein Doppelpunkt und ein Leerzeichen, und was es bedeutet. Gezeigt wird in der Ordnung des Alphabets.

@@ -215,7 +215,6 @@ scan-number-type = Zahlen vom Typ { $kind }
 scan-file-a-slice = eine Datei je Schicht
 scan-encoding = die Kodierung { $name }
 scan-numbers-a-voxel = mehrere Zahlen je Voxel
-scan-dicom-jpeg-ls = JPEG-LS-Kompression
 scan-dicom-jpeg-bits = JPEG-Bilder mit { $bits } Bit
 scan-dicom-table = eine Tabelle der Werte (Modality LUT)
 scan-dicom-jpeg-2000 = JPEG-2000-Kompression

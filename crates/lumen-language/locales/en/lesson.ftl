@@ -303,6 +303,39 @@ lesson-wire-text =
     answer: One run does not tell: the order of the triangles alone changes it. Compare with the unreduced surface measures the
       difference against that noise.
 
+lesson-solver = From scan to solver
+lesson-solver-text =
+    lumen lesson 1
+    title: From scan to solver
+
+    step: Light, but not even
+    text: The level is light and keeps every vessel's calibre: enough for a wire. A flow solver fills the vessel with tetrahedra, and
+      these are as good as the triangles that they stand on.
+    sample: aorta
+    settings: reduction=90
+    view: anterior
+    look: the wireframe: long, thin triangles along the vessels.
+
+    step: Ends for a flow
+    text: Each end is cut square to its vessel, extended by 5 radii as a tube that becomes a circle, and closed by a flat patch with a
+      name. Names and areas stand in step 5 of the panel.
+    sample: aorta
+    settings: reduction=90
+    show: solver
+    look: the coloured ends.
+    ask: Why are ends extended?
+    answer: The flow that a solver is given at an end is not the one of the vessel. Along the extension it becomes so.
+
+    step: Triangles by calibre
+    text: Every vessel has 12 edges around it, so that a thin one has small triangles and a wide one large ones. None is far from
+      equilateral.
+    sample: aorta
+    settings: reduction=90
+    show: solver
+    look: the wireframe where a renal artery leaves the aorta.
+    ask: A polygon of 12 edges lies inside its circle. How much of the area is lost?
+    answer: 4.5 %. Lumen brings inlets and outlets back to the area that they had; of the wall more edges keep more.
+
 ## The glossary
 
 # Of each entry the word, a colon and a space, and what it means. The entries are shown in the order of the alphabet.

@@ -309,6 +309,39 @@ lesson-wire-text =
     answer: Un seul essai ne le dit pas : un autre ordre des triangles suffit à la changer. « Comparer à la surface non
       réduite » mesure la différence face à ce bruit.
 
+lesson-solver = Du scanner au solveur
+lesson-solver-text =
+    lumen lesson 1
+    title: Du scanner au solveur
+
+    step: Léger, mais pas régulier
+    text: Le niveau est léger et garde le calibre de chaque vaisseau : assez pour un guide. Un solveur d'écoulement remplit le vaisseau
+      de tétraèdres, et ceux-ci valent ce que valent les triangles qui les portent.
+    sample: aorta
+    settings: reduction=90
+    view: anterior
+    look: le fil de fer : des triangles longs et minces le long des vaisseaux.
+
+    step: Des extrémités pour un écoulement
+    text: Chaque extrémité est coupée perpendiculairement au vaisseau, prolongée de 5 rayons par un tube qui devient un cercle, et
+      fermée par une partie plane qui porte un nom. Noms et aires sont à l'étape 5 du panneau.
+    sample: aorta
+    settings: reduction=90
+    show: solver
+    look: les extrémités en couleur.
+    ask: Pourquoi prolonger les extrémités ?
+    answer: L'écoulement donné au solveur à une extrémité n'est pas celui du vaisseau. Le long du prolongement, il le devient.
+
+    step: Des triangles selon le calibre
+    text: Chaque vaisseau a 12 arêtes autour de lui : un vaisseau mince a de petits triangles, un large de grands. Aucun n'est loin
+      d'être équilatéral.
+    sample: aorta
+    settings: reduction=90
+    show: solver
+    look: le fil de fer, là où une artère rénale quitte l'aorte.
+    ask: Un polygone de 12 arêtes est dans son cercle. Quelle part de l'aire est perdue ?
+    answer: 4,5 %. Lumen ramène les entrées et sorties à l'aire qu'elles avaient ; de la paroi, plus d'arêtes gardent plus.
+
 ## Le glossaire
 
 # De chaque entrée le mot, un deux-points sans espace devant et une espace derrière, et ce qu'il veut dire. Elles sont montrées dans

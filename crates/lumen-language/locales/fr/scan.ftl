@@ -215,7 +215,6 @@ scan-number-type = des nombres du type { $kind }
 scan-file-a-slice = un fichier par coupe
 scan-encoding = le codage { $name }
 scan-numbers-a-voxel = plusieurs nombres par voxel
-scan-dicom-jpeg-ls = la compression JPEG-LS
 scan-dicom-jpeg-bits = des images JPEG de { $bits } bits
 scan-dicom-table = une table de valeurs (modality LUT)
 scan-dicom-jpeg-2000 = la compression JPEG 2000

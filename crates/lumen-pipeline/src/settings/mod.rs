@@ -10,7 +10,8 @@ mod smoothing;
 pub mod table;
 mod target;
 
-use serde::{Deserialize, Serialize};
+use serde::ser::SerializeStruct as _;
+use serde::{Deserialize, Serialize, Serializer};
 
 pub use self::decimation::{Decimation, Method};
 pub use self::keep::{Keep, PieceSet};
@@ -22,11 +23,11 @@ use lumen_message::messages;
 use lumen_vessel::certificate::TOLERANCE_PERCENT;
 
 /// Settings of all stages, in the order of the method.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
     /// What of the surface is mended; by default nothing.
-    #[serde(default, skip_serializing_if = "Mending::is_off")]
+    #[serde(default)]
     pub mending: Mending,
     /// Which connected pieces go on.
     pub keep: Keep,
@@ -52,6 +53,25 @@ impl Default for Settings {
             target: Target::default(),
             tolerance_percent: TOLERANCE_PERCENT,
         }
+    }
+}
+
+/// What people read says nothing of mending where nothing is mended; a message between threads, whose fields have no names,
+/// leaves none out.
+impl Serialize for Settings {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let Self { mending, keep, smoothing, decimation, target, tolerance_percent } = self;
+        let tells_mending = !to.is_human_readable() || !mending.is_off();
+        let mut told = to.serialize_struct("Settings", 5 + usize::from(tells_mending))?;
+        if tells_mending {
+            told.serialize_field("mending", mending)?;
+        }
+        told.serialize_field("keep", keep)?;
+        told.serialize_field("smoothing", smoothing)?;
+        told.serialize_field("decimation", decimation)?;
+        told.serialize_field("target", target)?;
+        told.serialize_field("tolerance_percent", tolerance_percent)?;
+        told.end()
     }
 }
 

@@ -1,6 +1,7 @@
 use lumen_mesh::shapes::{icosphere, joined, tube};
 
 use super::*;
+use crate::folds::tests::folded_box;
 
 fn faults(mesh: TriMesh) -> Vec<Fault> {
     check(&Patched::wall(mesh)).findings.into_iter().map(|finding| finding.fault).collect()
@@ -36,6 +37,16 @@ fn crossing_spheres_are_two_pieces_that_cross_near_their_common_circle() {
     ));
     assert!(fate.findings[0].places.iter().all(|place| (place[0] - 4.0).abs() < 1.0));
     assert!(!fate.is_ready());
+}
+
+#[test]
+fn a_fold_crosses_nothing_and_stops_a_mesher_at_its_place() {
+    let mesh = folded_box();
+    let [one, other] = folds(&mesh)[0].map(|t| middle(&mesh.corners(t as usize)));
+    let fate = check(&Patched::wall(mesh));
+    assert_eq!(fate.findings[0].fault, Fault::Folds { count: 3 });
+    assert!(!fate.is_ready());
+    assert!(one.distance(DVec3::from_array(fate.findings[0].places[0])) < one.distance(other) + 1e-3);
 }
 
 #[test]

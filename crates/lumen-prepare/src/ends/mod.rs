@@ -14,6 +14,7 @@ use glam::DVec3;
 use lumen_mesh::cut::{Outline, cut};
 use lumen_mesh::{SurfaceIndex, Topology, TriMesh, boundary_loops};
 use lumen_vessel::{Branch, End, Place, Tree};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub use rim::{OpenEnd, RimError, SurfaceError, check_surface, names, open_ends, planes_of_uneven_openings};
@@ -38,8 +39,9 @@ const RIM_REACH: f64 = 2.5;
 /// A plane at which an end of a vessel is cut.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EndPlane {
-    /// The place of the branch in [`Tree::branches`].
-    pub branch: u32,
+    /// The place of the branch in [`Tree::branches`]; `None` where it is known by its opening alone, as are the end and the
+    /// distance then.
+    pub branch: Option<u32>,
     /// Whether it is at the last point of the branch, and not at the first.
     pub at_end: bool,
     /// The centroid of the section, in mm.
@@ -55,7 +57,8 @@ pub struct EndPlane {
 }
 
 /// A distance along a vessel.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Length {
     /// In mm.
     Mm(f64),
@@ -142,6 +145,19 @@ pub enum EndError {
         /// Distance from the end, in mm.
         arc_mm: f64,
     },
+}
+
+impl EndError {
+    /// The place of the branch and whether its last point is meant, where it is that of one end.
+    pub fn end(&self) -> Option<(u32, bool)> {
+        match *self {
+            Self::Joint { branch, at_end }
+            | Self::TooNearFork { branch, at_end, .. }
+            | Self::NotRound { branch, at_end, .. }
+            | Self::NoSection { branch, at_end, .. } => Some((branch, at_end)),
+            Self::Surface(_) | Self::NoBranch { .. } | Self::Distance { .. } => None,
+        }
+    }
 }
 
 fn side(at_end: bool) -> &'static str {
@@ -250,7 +266,7 @@ impl VesselEnd<'_> {
         let [least, largest] = outline.widths(normal);
         let area = outline.area(normal).abs();
         Some(EndPlane {
-            branch: self.branch.id,
+            branch: Some(self.branch.id),
             at_end: self.at_end,
             centre: outline.middle(normal),
             normal,

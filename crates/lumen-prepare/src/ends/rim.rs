@@ -151,13 +151,7 @@ impl OpenEnd {
             return Err(RimError::NotBoundary { name, vertex: rim[0] });
         }
         let points: Vec<DVec3> = rim.iter().map(|&v| mesh.positions[v as usize].as_dvec3()).collect();
-        let mean = points.iter().sum::<DVec3>() / points.len() as f64;
-        // The vector area of the loop (Newell), which runs clockwise seen from outside.
-        let pairs = points.iter().zip(points.iter().cycle().skip(1));
-        let area: DVec3 = pairs.map(|(&p, &q)| (q - mean).cross(p - mean)).sum::<DVec3>() / 2.0;
-        let Some(normal) = area.try_normalize().filter(|normal| normal.is_finite()) else {
-            return Err(RimError::NoArea { name });
-        };
+        let Some((mean, normal)) = plane(&points) else { return Err(RimError::NoArea { name }) };
         let (signed, centre) = area_and_middle(&points, mean, normal);
         let radius_mm = (signed.abs() / PI).sqrt();
         let off_mm = points.iter().map(|&p| (p - mean).dot(normal).abs()).fold(0.0, f64::max);
@@ -182,6 +176,15 @@ impl OpenEnd {
         let at = |v: u32| mesh.positions[v as usize].as_dvec3();
         edges(&self.rim).map(|(a, b)| at(a).distance(at(b))).sum::<f64>() / self.rim.len() as f64
     }
+}
+
+/// The mean of a loop's points and its unit normal: along its vector area (Newell), which points out of the vessel where the
+/// loop runs clockwise seen from outside. `None` where it encloses no area.
+fn plane(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
+    let mean = points.iter().sum::<DVec3>() / points.len() as f64;
+    let pairs = points.iter().zip(points.iter().cycle().skip(1));
+    let area: DVec3 = pairs.map(|(&p, &q)| (q - mean).cross(p - mean)).sum();
+    area.try_normalize().filter(|normal| normal.is_finite()).map(|normal| (mean, normal))
 }
 
 /// The edges of a loop.
@@ -232,13 +235,11 @@ pub fn planes_of_uneven_openings(mesh: &TriMesh) -> Result<Vec<EndPlane>, Surfac
         let end = OpenEnd::new(mesh, &topology, rim.clone(), String::new(), PatchKind::Outlet);
         let Err(RimError::NotPlanar { radius_mm, .. }) = end else { return None };
         let points: Vec<DVec3> = rim.iter().map(|&v| mesh.positions[v as usize].as_dvec3()).collect();
-        let mean = points.iter().sum::<DVec3>() / points.len() as f64;
-        let pairs = points.iter().zip(points.iter().cycle().skip(1));
-        let normal = pairs.map(|(&p, &q)| (q - mean).cross(p - mean)).sum::<DVec3>().try_normalize()?;
+        let (mean, normal) = plane(&points)?;
         let deepest = points.iter().map(|&p| (p - mean).dot(normal)).fold(0.0, f64::min);
         let arc_mm = INWARDS * radius_mm - deepest;
         Some(EndPlane {
-            branch: 0,
+            branch: None,
             at_end: false,
             centre: mean - normal * arc_mm,
             normal,

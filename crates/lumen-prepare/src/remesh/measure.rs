@@ -1,7 +1,8 @@
 //! How well triangles are shaped, and how far two surfaces are apart.
 
 use glam::Vec3;
-use lumen_mesh::{SurfaceIndex, TriMesh, parallel};
+use lumen_mesh::{SurfaceIndex, TriMesh, corner_angles, parallel, triangle_area};
+use serde::{Deserialize, Serialize};
 
 /// Distances are first looked at in one of this many triangles.
 const SOME: usize = 64;
@@ -9,7 +10,7 @@ const SOME: usize = 64;
 const CHUNK: usize = 4096;
 
 /// How well triangles are shaped.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Quality {
     /// Mean of `4 sqrt(3) A` over the sum of the squared sides: 1 where all triangles are equilateral.
     pub mean: f64,
@@ -21,7 +22,7 @@ pub struct Quality {
 
 /// Largest distances that were found between two surfaces, in mm, at vertices, at the middles of edges and of
 /// triangles.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Deviation {
     /// Of points of the new surface from the old one.
     pub to_old_mm: f64,
@@ -37,14 +38,11 @@ impl Quality {
     pub fn of(mesh: &TriMesh) -> Self {
         let (mut sum, mut least, mut below) = (0.0, 180.0f64, 0usize);
         for t in 0..mesh.triangles.len() {
-            let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
+            let corners = mesh.corners(t);
+            let [a, b, c] = corners.map(Vec3::as_dvec3);
             let sides = a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
-            let doubled = (b - a).cross(c - a).length();
-            sum += if sides > 0.0 { 2.0 * 3.0f64.sqrt() * doubled / sides } else { 0.0 };
-            // At each corner the doubled area is the product of the sides and the sine.
-            let angle = |u: glam::DVec3, v: glam::DVec3| libm::atan2(doubled, u.dot(v)).to_degrees();
-            let angles = [angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)];
-            let smallest = angles.into_iter().fold(180.0, f64::min);
+            sum += if sides > 0.0 { 4.0 * 3.0f64.sqrt() * triangle_area(corners) / sides } else { 0.0 };
+            let smallest = corner_angles(corners).into_iter().fold(180.0, f64::min);
             least = least.min(smallest);
             below += usize::from(smallest < 30.0);
         }

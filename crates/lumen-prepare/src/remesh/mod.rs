@@ -22,7 +22,9 @@ mod steps;
 mod tests;
 mod triangle;
 
-use lumen_mesh::{Blend, SurfaceIndex, TriMesh, Vec3, self_intersections, triangle_area};
+use lumen_mesh::task::{Yielder, at_once};
+use lumen_mesh::{Blend, SurfaceIndex, TriMesh, Vec3, triangle_area};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub use self::measure::{Deviation, Quality};
@@ -30,7 +32,9 @@ pub use self::measure::{Deviation, Quality};
 use self::measure::{farthest, middle, samples};
 use self::net::{CORNER, FREE, NONE, Net, Unsound};
 use self::steps::Original;
+use self::triangle::doubled;
 use super::Patched;
+use crate::folds::clashing;
 
 /// Rounds of the steps.
 const ROUNDS: usize = 7;
@@ -51,7 +55,8 @@ const FARTHEST_MM: f32 = 1e9;
 const MOST: usize = 20_000_000;
 
 /// How large triangles should be.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Sizing {
     /// Edges around the circumference of the vessel, 3 or more: an edge is `2 pi r / around` long where the radius is
     /// `r`.
@@ -74,6 +79,24 @@ impl Default for Sizing {
     }
 }
 
+impl Sizing {
+    /// Refuses lengths that make no sense.
+    ///
+    /// # Errors
+    /// [`RemeshError::Sizing`].
+    pub fn check(&self) -> Result<(), RemeshError> {
+        let Self { around, least_mm, largest_mm, growth, max_deviation_mm } = *self;
+        let is_right = [
+            (around.is_finite() && around >= 3.0, "there should be 3 edges around or more"),
+            (least_mm.is_finite() && least_mm > 1e-6, "the least length should be above 0"),
+            (largest_mm.is_finite() && largest_mm >= least_mm, "the largest length should be at least the least one"),
+            (growth.is_finite() && growth > 1.0, "the growth should be above 1"),
+            (max_deviation_mm.is_none_or(|d| d.is_finite() && d > 0.0), "the deviation should be above 0 mm"),
+        ];
+        is_right.into_iter().find(|(right, _)| !right).map_or(Ok(()), |(_, why)| Err(RemeshError::Sizing(why)))
+    }
+}
+
 /// A surface that was remeshed.
 #[derive(Clone, Debug)]
 pub struct Remeshed {
@@ -87,7 +110,7 @@ pub struct Remeshed {
     pub quality: Quality,
     /// How far the surfaces are apart.
     pub deviation: Deviation,
-    /// The new triangles that run into others, ascending.
+    /// The new triangles that run into others or are folded onto a neighbour, ascending.
     pub crossing: Vec<u32>,
     /// Chains of rim, patch border and crease that were kept.
     pub curves: usize,
@@ -169,7 +192,20 @@ pub enum RemeshError {
 /// Where a list has the wrong length, an index is out of range, a number is not finite or too large, an edge has more
 /// than two triangles, windings disagree, the sizing does not hold, or asks for more than 20 million triangles.
 pub fn remesh(surface: &Patched, radii: &[f32], sizing: &Sizing) -> Result<Remeshed, RemeshError> {
-    check_sizing(sizing)?;
+    at_once(remesh_in_slices(surface, radii, sizing, &Yielder::never()))
+}
+
+/// As [`remesh`], resting between its steps.
+///
+/// # Errors
+/// As [`remesh`].
+pub async fn remesh_in_slices(
+    surface: &Patched,
+    radii: &[f32],
+    sizing: &Sizing,
+    yielder: &Yielder,
+) -> Result<Remeshed, RemeshError> {
+    sizing.check()?;
     let kept = check(surface, radii)?;
     let mesh = &surface.mesh;
     let triangles: Vec<[u32; 3]> = kept.iter().map(|&t| mesh.triangles[t as usize]).collect();
@@ -189,11 +225,12 @@ pub fn remesh(surface: &Patched, radii: &[f32], sizing: &Sizing) -> Result<Remes
     check_count(&net, &triangles, &lengths)?;
     net.size = lengths.iter().map(|&length| length as f32).collect();
     let first = net.clone();
-    let mut original = Original { triangles, patch, index, curves, lengths: net.size.clone() };
+    let normals = triangles.iter().map(|t| doubled(t.map(|v| net.at[v as usize]))).collect();
+    let mut original = Original { triangles, normals, patch, index, curves, lengths: net.size.clone() };
 
-    run(&mut net, &original, ROUNDS, COARSE_ROUNDS);
+    run(&mut net, &original, ROUNDS, COARSE_ROUNDS, &yielder.part(0.1..0.8)).await;
     let mut new = numbered(&net);
-    let mut crossing = self_intersections(&new.mesh);
+    let mut crossing = clashing(&new.mesh);
     for _ in 0..REPAIRS {
         let mut coarse = where_crossed(&crossing, &new.mesh, &original, &first);
         if let Some(bound) = sizing.max_deviation_mm {
@@ -208,23 +245,12 @@ pub fn remesh(surface: &Patched, radii: &[f32], sizing: &Sizing) -> Result<Remes
         }
         original.lengths = lengths.iter().map(|&length| length as f32).collect();
         resize(&mut net, &original);
-        run(&mut net, &original, REPAIR_ROUNDS, 0);
+        run(&mut net, &original, REPAIR_ROUNDS, 0, &yielder.part(0.8..0.9)).await;
         new = numbered(&net);
-        crossing = self_intersections(&new.mesh);
+        crossing = clashing(&new.mesh);
     }
+    yielder.rest(0.9).await;
     Ok(finished(surface, &first, &net, &original, &kept, new, crossing))
-}
-
-fn check_sizing(sizing: &Sizing) -> Result<(), RemeshError> {
-    let Sizing { around, least_mm, largest_mm, growth, max_deviation_mm } = *sizing;
-    let is_right = [
-        (around.is_finite() && around >= 3.0, "there should be 3 edges around or more"),
-        (least_mm.is_finite() && least_mm > 1e-6, "the least length should be above 0"),
-        (largest_mm.is_finite() && largest_mm >= least_mm, "the largest length should be at least the least one"),
-        (growth.is_finite() && growth > 1.0, "the growth should be above 1"),
-        (max_deviation_mm.is_none_or(|d| d.is_finite() && d > 0.0), "the deviation should be above 0 mm"),
-    ];
-    is_right.into_iter().find(|(right, _)| !right).map_or(Ok(()), |(_, why)| Err(RemeshError::Sizing(why)))
 }
 
 /// The triangles that have three vertices.
@@ -284,21 +310,30 @@ fn check_count(net: &Net, triangles: &[[u32; 3]], lengths: &[f64]) -> Result<(),
 }
 
 /// The steps, and the clean-up after them.
-fn run(net: &mut Net, original: &Original, rounds: usize, coarse_rounds: usize) {
+async fn run(net: &mut Net, original: &Original, rounds: usize, coarse_rounds: usize, yielder: &Yielder) {
+    let all = (rounds + LAST_ROUNDS + 1) as f32;
     for round in 0..rounds {
+        let done = round as f32 / all;
         steps::split_long(net, original, 2 * MOST);
+        yielder.rest(done).await;
         let longest = if round < coarse_rounds { steps::LONGER } else { steps::LONG };
         steps::collapse_short(net, longest);
+        yielder.rest(done).await;
         steps::flip_to_valence(net);
-        steps::relax(net, original, false);
-        steps::relax(net, original, true);
+        relax(net, original, done, yielder).await;
     }
-    for _ in 0..LAST_ROUNDS {
+    for round in 0..LAST_ROUNDS {
         steps::flip_to_angles(net);
-        steps::relax(net, original, false);
-        steps::relax(net, original, true);
+        relax(net, original, (rounds + round) as f32 / all, yielder).await;
     }
     clean::widen_angles(net, original);
+}
+
+async fn relax(net: &mut Net, original: &Original, done: f32, yielder: &Yielder) {
+    for also_curves in [false, true] {
+        yielder.rest(done).await;
+        steps::relax(net, original, also_curves);
+    }
 }
 
 /// The old triangles, none of which crossed others, at new ones that do.
@@ -308,7 +343,7 @@ fn where_crossed(crossing: &[u32], mesh: &TriMesh, original: &Original, first: &
     }
     let mut crossed_before = vec![false; original.triangles.len()];
     let old = TriMesh { positions: first.at.clone(), triangles: original.triangles.clone() };
-    self_intersections(&old).into_iter().for_each(|t| crossed_before[t as usize] = true);
+    clashing(&old).into_iter().for_each(|t| crossed_before[t as usize] = true);
     let points = crossing.iter().flat_map(|&t| samples(mesh.corners(t as usize)));
     let old = points.filter_map(|p| original.index.nearest(p)).map(|found| found.triangle);
     old.filter(|&t| !crossed_before[t as usize]).collect()

@@ -39,6 +39,8 @@ const FLIP_TURN: f32 = 0.7;
 pub(super) struct Original {
     /// Its triangles, in the vertices that the net began with.
     pub(super) triangles: Vec<[u32; 3]>,
+    /// Their normals, as long as twice their area.
+    pub(super) normals: Vec<Vec3>,
     /// Their patches.
     pub(super) patch: Vec<u32>,
     /// An index of them.
@@ -76,10 +78,16 @@ impl Original {
         let (foot, corners) = match kind {
             CORNER => return None,
             FREE => {
-                let found = match &net.foot[v as usize] {
+                let mut found = match &net.foot[v as usize] {
                     Some(last) => self.index.nearest_from(p, last)?,
                     None => self.index.nearest(p)?,
                 };
+                // Where two walls nearly touch, the nearest may be the other one, which faces the other way.
+                let facing = facing(net, v);
+                let is_own = |t: u32| self.normals[t as usize].dot(facing) >= 0.0;
+                if !is_own(found.triangle) {
+                    found = self.index.nearest_of(p, is_own).filter(|own| own.distance <= net.size[v as usize])?;
+                }
                 let patch = net.patch[(net.out[v as usize] / 3) as usize];
                 if self.patch[found.triangle as usize] != patch {
                     return None;

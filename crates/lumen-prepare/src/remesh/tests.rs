@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 
 use lumen_mesh::mending::{Mending, mend};
-use lumen_mesh::shapes::{fork, icosphere, sagitta, tube};
+use lumen_mesh::shapes::{fork, icosphere, joined, sagitta, tube};
 use lumen_mesh::split_mix::SplitMix64;
 use lumen_mesh::task::{Yielder, at_once};
 use lumen_mesh::{Topology, boundary_loops, surface_area, volume};
@@ -44,6 +44,31 @@ fn a_sphere_gets_even_triangles_of_the_wanted_length_on_itself() {
         let side = (surface_area(mesh) / mesh.triangles.len() as f64 * 4.0 / 3.0f64.sqrt()).sqrt();
         assert!((side / mm - 1.0).abs() < 0.15, "{side}");
     }
+}
+
+#[test]
+fn walls_that_nearly_touch_stay_each_where_it_is() {
+    // A ball in a hollow, and edges so long that their middles lie beyond the other wall.
+    let (radius, gap) = (10.0, 0.02);
+    let ball = icosphere(5, radius, Vec3::ZERO);
+    let deep = sagitta(&ball, radius, Vec3::ZERO);
+    assert!(deep < gap / 4.0);
+    let mut hollow = icosphere(5, radius + gap, Vec3::ZERO);
+    hollow.triangles.iter_mut().for_each(|t| t.swap(0, 1));
+    let both = joined(&[ball, hollow]);
+    let found = remesh(&Patched::wall(both.clone()), &vec![10.0; both.positions.len()], &uniform(2.0)).unwrap();
+    let mesh = &found.surface.mesh;
+    let mut walls = [0, 0];
+    for t in 0..mesh.triangles.len() {
+        let corners = mesh.corners(t);
+        let is_hollow = doubled(corners).dot(corners[0]) < 0.0;
+        walls[usize::from(is_hollow)] += 1;
+        let own = if is_hollow { radius + gap } else { radius };
+        for r in corners.map(Vec3::length) {
+            assert!((own - deep - 1e-5..=own + 1e-5).contains(&r), "{r} for {own}");
+        }
+    }
+    assert!(walls.iter().all(|&count| count > 100), "{walls:?}");
 }
 
 #[test]

@@ -13,12 +13,13 @@
 
 use glam::{DVec3, Vec3};
 
-use lumen_mesh::crossing::{Face, cross};
+use lumen_mesh::crossing::Face;
 use lumen_mesh::{SurfaceIndex, TriMesh, outward_normal};
 
 use super::clusters::{Cluster, NONE, bounds};
 use super::membrane::membrane;
 use super::{DEEP, SHALLOW, Surface};
+use crate::folds::clash;
 
 /// Steps of a push, of a relaxation, and to a membrane.
 const PUSHES: u32 = 12;
@@ -247,13 +248,13 @@ impl<'a> Pushing<'a> {
                 let of_mesh = region.triangles[other as usize];
                 if other > number && !does && !is_foreign(of_mesh) {
                     let vertices = mesh.triangles[of_mesh as usize];
-                    does = cross(&face, &Face { vertices, corners: sheet.corners(other as usize) });
+                    does = clash(&face, &Face { vertices, corners: sheet.corners(other as usize) });
                 }
             });
             index.for_each_near(low - margin, high + margin, |other| {
                 if !does && !is_foreign(other) && region.triangles.binary_search(&other).is_err() {
                     let vertices = mesh.triangles[other as usize];
-                    does = cross(&face, &Face { vertices, corners: vertices.map(|v| self.positions[v as usize]) });
+                    does = clash(&face, &Face { vertices, corners: vertices.map(|v| self.positions[v as usize]) });
                 }
             });
             does

@@ -1,9 +1,11 @@
 use glam::Vec3;
 
 use lumen_mesh::shapes::{icosphere, joined, tube, vertices_are_manifold};
-use lumen_mesh::volume;
+use lumen_mesh::{self_intersections, volume};
 
 use super::*;
+use crate::folds::folds;
+use crate::folds::tests::folded_box;
 
 /// Numbers between -1 and 1 that look like none.
 fn noise(i: usize) -> f32 {
@@ -85,6 +87,17 @@ fn assert_mended(mesh: &TriMesh, found: &Uncrossed, is_wrong: impl Fn(Vec3) -> b
     assert_eq!(found.triangle_of.len(), found.mesh.triangles.len());
     let own = (0..).zip(&found.triangle_of).filter(|&(t, &of)| found.mesh.corners(t) == mesh.corners(of as usize));
     assert!(own.count() >= untouched.len(), "what stayed is said to be itself");
+}
+
+#[test]
+fn a_fold_that_crosses_nothing_is_laid_flat_and_the_wall_stays_where_it_is() {
+    let mesh = folded_box();
+    let found = uncross(&mesh).unwrap();
+    assert_eq!((found.crossing_before, found.crossing_after), (4, 0));
+    assert!(folds(&found.mesh).is_empty() && self_intersections(&found.mesh).is_empty());
+    assert_eq!((found.places.len(), found.places[0].remedy), (1, Remedy::PushedApart));
+    // Within a hundredth of the radius.
+    assert!(found.mesh.positions.iter().all(|p| (p.abs().max_element() - 5.0).abs() < 0.05));
 }
 
 fn in_either_tube(p: Vec3, overlap: f32) -> bool {
@@ -186,11 +199,11 @@ fn a_place_without_a_remedy_is_told_and_stays() {
 fn what_is_no_surface_is_refused() {
     let mut mesh = spiked();
     mesh.triangles[7] = [0, 1, 9_000_000];
-    assert!(matches!(uncross(&mesh), Err(UncrossError::NoVertex { triangle: 7, .. })));
+    assert!(matches!(uncross(&mesh), Err(SurfaceError::MissingVertex { triangle: 7 })));
     mesh.triangles[7] = [5, 1, 5];
-    assert_eq!(uncross(&mesh), Err(UncrossError::RepeatsVertex { triangle: 7 }));
+    assert_eq!(uncross(&mesh), Err(SurfaceError::RepeatedVertex { triangle: 7 }));
     mesh.positions[2].z = f32::INFINITY;
-    assert_eq!(uncross(&mesh), Err(UncrossError::NotFinite { vertex: 2 }));
+    assert_eq!(uncross(&mesh), Err(SurfaceError::NotFinite { vertex: 2 }));
 }
 
 #[test]

@@ -18,8 +18,9 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use lumen_mesh::{TriMesh, compacted, triangle_area};
+use lumen_mesh::{TriMesh, compacted};
 
+use crate::ends::{SurfaceError, check_surface};
 use crate::{Patch, PatchKind, Patched};
 
 /// The longest name of a patch in a file, in characters: Abaqus takes 80, a suffix included.
@@ -108,25 +109,11 @@ pub fn simvascular(surface: &Patched) -> Result<Vec<(String, Vec<u8>)>, WriteErr
 /// Why a surface cannot be written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// There is nothing to write.
-    #[error("The surface has no triangle.")]
-    Empty,
-    /// A coordinate is no number.
-    #[error("Vertex {vertex} has a coordinate that is not finite.")]
-    NotFinite {
-        /// Its place in the list of vertices.
-        vertex: usize,
-    },
-    /// A triangle names a vertex that is not there.
-    #[error("Triangle {triangle} has a vertex that is not there: the surface has {vertices} vertices.")]
-    NoVertex {
-        /// Its place in the list of triangles.
-        triangle: usize,
-        /// How many vertices there are.
-        vertices: usize,
-    },
+    /// The surface is broken.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
     /// Not every triangle has its patch.
-    #[error("{of} of {triangles} triangles have a patch.")]
+    #[error("{of} of {triangles} triangles have a patch")]
     Count {
         /// Entries of [`Patched::of_triangle`].
         of: usize,
@@ -134,7 +121,7 @@ pub enum WriteError {
         triangles: usize,
     },
     /// A triangle is of a patch that is not there.
-    #[error("Triangle {triangle} is of patch {patch}: there are {patches}.")]
+    #[error("triangle {triangle} is of patch {patch}: there are {patches}")]
     NoPatch {
         /// Its place in the list of triangles.
         triangle: usize,
@@ -144,7 +131,7 @@ pub enum WriteError {
         patches: usize,
     },
     /// A patch has id 0, one beyond 2147483647, or that of another.
-    #[error("The id {id} of patch \"{name}\" cannot be written: ids are distinct numbers from 1 to 2147483647.")]
+    #[error("the id {id} of patch \"{name}\" cannot be written: ids are distinct numbers from 1 to 2147483647")]
     Id {
         /// The id.
         id: u32,
@@ -152,7 +139,7 @@ pub enum WriteError {
         name: String,
     },
     /// The JSON text could not be made.
-    #[error("The patches could not be written as JSON: {0}")]
+    #[error("the patches could not be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
 }
 
@@ -176,18 +163,10 @@ struct Sheet<'a> {
 impl<'a> Sheet<'a> {
     fn of(surface: &'a Patched) -> Result<Self, WriteError> {
         let Patched { mesh, of_triangle, patches } = surface;
-        let (vertices, triangles) = (mesh.positions.len(), mesh.triangles.len());
-        if triangles == 0 {
-            return Err(WriteError::Empty);
-        }
+        check_surface(mesh)?;
+        let triangles = mesh.triangles.len();
         if of_triangle.len() != triangles {
             return Err(WriteError::Count { of: of_triangle.len(), triangles });
-        }
-        if let Some(vertex) = mesh.positions.iter().position(|p| !p.is_finite()) {
-            return Err(WriteError::NotFinite { vertex });
-        }
-        if let Some(triangle) = mesh.triangles.iter().position(|t| t.iter().any(|&v| v as usize >= vertices)) {
-            return Err(WriteError::NoVertex { triangle, vertices });
         }
         for (i, Patch { id, name, .. }) in patches.iter().enumerate() {
             if *id == 0 || i32::try_from(*id).is_err() || patches.iter().take(i).any(|other| other.id == *id) {
@@ -208,8 +187,8 @@ impl<'a> Sheet<'a> {
             let missing = WriteError::NoPatch { triangle: t, patch, patches: patches.len() };
             let part = parts.get_mut(patch as usize).ok_or(missing)?;
             part.triangles.push(t as u32);
-            part.area_mm2 += triangle_area(mesh.corners(t));
         }
+        parts.iter_mut().zip(surface.areas_mm2()).for_each(|(part, area)| part.area_mm2 = area);
         parts.retain(|part| !part.triangles.is_empty());
         Ok(Self { mesh: compacted(&mesh.positions, mesh.triangles.clone()), parts })
     }

@@ -212,12 +212,15 @@ fn what_is_no_surface_is_refused() {
         change(&mut bad);
         SolverFormat::ALL.map(|format| format.written(&bad, "x").unwrap_err().to_string())[0].clone()
     };
-    assert_eq!(refused(&|bad| bad.mesh.positions[3].y = f32::NAN), "Vertex 3 has a coordinate that is not finite.");
-    assert!(refused(&|bad| bad.mesh.triangles[3] = [0, 1, 4000]).starts_with("Triangle 3 has a vertex"));
-    assert!(refused(&|bad| bad.of_triangle[5] = 3).starts_with("Triangle 5 is of patch 3: there are 3."));
+    assert_eq!(
+        refused(&|bad| bad.mesh.positions[3].y = f32::NAN),
+        "vertex 3 has a coordinate that is not a finite number"
+    );
+    assert!(refused(&|bad| bad.mesh.triangles[3] = [0, 1, 4000]).starts_with("triangle 3 has a vertex"));
+    assert!(refused(&|bad| bad.of_triangle[5] = 3).starts_with("triangle 5 is of patch 3: there are 3"));
     assert!(refused(&|bad| bad.of_triangle.clear()).starts_with("0 of 352 triangles"));
     assert!(refused(&|bad| bad.patches[1].id = 1).contains("cannot be written"));
-    assert!(refused(&|bad| *bad = Patched::default()).contains("no triangle"));
+    assert!(refused(&|bad| *bad = Patched::default()).contains("no triangles"));
 }
 
 #[test]

@@ -198,6 +198,12 @@ impl Trial {
         self.limit_s
     }
 
+    /// The part that is done, 0 to 1: of the steps that a replay has, else of the time that the autopilot has.
+    pub fn part_done(&self) -> f64 {
+        let all = self.replayed_steps().map_or(self.limit_s() / STEP, |all| all as f64);
+        (self.simulation().steps() as f64 / all.max(1.0)).min(1.0)
+    }
+
     /// Steers by itself from the next row of the log on, or no longer.
     pub fn set_autopilot(&mut self, on: bool) {
         self.is_steered = on;

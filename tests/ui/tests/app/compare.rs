@@ -9,7 +9,7 @@ use lumen::app::compare::{Arrangement, Cell, Made, Outcome};
 use lumen::pipeline::deviation::deviation;
 use lumen::pipeline::paper;
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, drag, offered, says, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, drag, offered, says, seen, settle, settle_wholly};
 
 fn press(harness: &mut Harness<'_, LumenApp>, button: &str) {
     harness.get_by_role_and_label(Role::Button, button).click();
@@ -142,7 +142,7 @@ fn keys_open_choose_and_close() {
 
 #[test]
 fn a_view_that_is_left_and_opened_again_shows_the_same() {
-    let mut harness = open();
+    let mut harness = seen(open);
     // Marks and verdicts that come later would be seen.
     settle_wholly(&mut harness);
     let picture = |harness: &mut Harness<'_, LumenApp>| {
@@ -173,7 +173,7 @@ fn the_tab_key_reaches_every_cell() {
 
 #[test]
 fn all_pictures_turn_together_and_go_with_the_theme_and_the_arrangement() {
-    let mut harness = open();
+    let mut harness = seen(open);
     let places: Vec<_> = harness.query_all_by_role(Role::RadioButton).map(|cell| cell.rect()).collect();
     let look = |harness: &mut Harness<'_, LumenApp>| -> Vec<Vec<u8>> {
         // The pointer would mark the cell that it is over.
@@ -259,7 +259,7 @@ fn a_phone_has_two_cells_a_row() {
 #[test]
 fn pictures_of_the_compare_view() {
     for (size, name) in [(DESKTOP, "desktop"), (PHONE, "phone")] {
-        let (mut harness, _) = app(size);
+        let (mut harness, _) = seen(|| app(size));
         settle(&mut harness);
         harness.key_press(Key::C);
         harness.run_steps(3);
@@ -294,7 +294,7 @@ fn pixels(harness: &mut Harness<'_, LumenApp>, cell: usize) -> Vec<[u8; 4]> {
 
 #[test]
 fn the_first_settings_are_in_every_cell_while_x_is_held() {
-    let mut harness = open();
+    let mut harness = seen(open);
     let is_near = |a: &[[u8; 4]], b: &[[u8; 4]]| {
         let off = a.iter().zip(b).filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 24)).count();
         off * 200 < a.len()
@@ -365,7 +365,7 @@ fn who_has_moved_the_camera_is_left_where_he_looks() {
 
 #[test]
 fn the_others_are_coloured_by_their_distance_from_the_first() {
-    let mut harness = open();
+    let mut harness = seen(open);
     let green = |harness: &mut Harness<'_, LumenApp>, cell: usize| {
         let is_green = |p: &&[u8; 4]| i32::from(p[1]) - i32::from(p[0]) > 40;
         pixels(harness, cell).iter().filter(is_green).count()
@@ -418,7 +418,7 @@ fn what_is_compared_has_a_plain_heading_with_the_papers_figure_below() {
 
 #[test]
 fn what_is_compared_is_saved_as_one_picture() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = seen(|| app(DESKTOP));
     settle(&mut harness);
     press(&mut harness, "Compare");
     settle(&mut harness);

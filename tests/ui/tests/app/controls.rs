@@ -7,7 +7,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::pipeline::filter::Filter;
 use lumen::pipeline::settings::{Method, Target, Window};
-use lumen_ui_tests::{DESKTOP, app, app_in_full, says, settle, unfold};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, says, seen, settle, unfold};
 
 pub(crate) fn open() -> Harness<'static, LumenApp> {
     let (mut harness, _) = app_in_full(DESKTOP);
@@ -57,7 +57,7 @@ fn the_reduction_slider_shows_another_level_in_the_same_frame() {
 
 #[test]
 fn the_picture_follows_the_slider_in_the_same_frame() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = seen(|| app(DESKTOP));
     settle(&mut harness);
     memory.borrow_mut().runs = false;
     let slider = harness.get_by_role_and_label(Role::Slider, "Reduction").rect();

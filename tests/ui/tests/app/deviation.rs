@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
 use lumen::pipeline::deviation::Deviation;
-use lumen_ui_tests::{DESKTOP, app, says, settle};
+use lumen_ui_tests::{DESKTOP, app, says, seen, settle};
 
 /// The numbers: from the smoothed surface, and from the one that was opened.
 fn numbers(harness: &Harness<'_, LumenApp>) -> [Deviation; 2] {
@@ -48,7 +48,7 @@ fn the_pin_is_where_the_deviation_from_the_chosen_surface_is_largest() {
 
 #[test]
 fn with_a_sign_small_deviations_are_white_and_the_steps_are_fixed() {
-    let (mut harness, _) = app(DESKTOP);
+    let (mut harness, _) = seen(|| app(DESKTOP));
     settle(&mut harness);
     harness.key_press(Key::D);
     harness.run_steps(3);

@@ -9,7 +9,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::decimation::CollapseStatus;
 use lumen::pipeline::progressive::Level;
 use lumen::pipeline::settings::Target;
-use lumen_ui_tests::{DESKTOP, app, app_in_full, says, settle, tube};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, says, seen, settle, tube};
 
 use crate::recovery::tell;
 use crate::teaching::click;
@@ -26,7 +26,7 @@ fn collapses(harness: &mut Harness<'_, LumenApp>) {
 
 #[test]
 fn the_classes_of_a_tube_are_counted_beside_their_colours() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = seen(|| app(DESKTOP));
     settle(&mut harness);
     let bytes = tube(4.0, 40.0, 0.8);
     tell(&mut harness, &memory, PlatformEvent::Chosen { name: "tube.obj".to_owned(), bytes });

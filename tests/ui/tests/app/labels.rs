@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
 use lumen::render::{Colour, contrast};
-use lumen_ui_tests::{DESKTOP, app, open, settle_wholly};
+use lumen_ui_tests::{DESKTOP, app, open, seen, settle_wholly};
 
 /// The contrast of the brightest and the darkest pixel in a part of the window.
 fn contrast_in(harness: &mut Harness<'_, LumenApp>, part: Rect) -> f32 {
@@ -23,7 +23,7 @@ fn contrast_in(harness: &mut Harness<'_, LumenApp>, part: Rect) -> f32 {
 
 #[test]
 fn labels_over_the_outside_and_the_inside_of_a_wall_have_their_contrast_in_both_themes() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = seen(|| app(DESKTOP));
     settle_wholly(&mut harness);
     let bytes = b"v -30 0 -30\nv 30 0 -30\nv 30 0 30\nv -30 0 30\nf 1 2 3 4\n".to_vec();
     open(&mut harness, &memory, "sheet.obj", bytes);

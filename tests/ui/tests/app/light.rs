@@ -5,7 +5,7 @@ use egui::{Rect, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, app, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, app, seen, settle, settle_wholly};
 
 /// The sum of all colours in the shaded view, or where the comparison is.
 fn brightness(harness: &mut Harness<'_, LumenApp>) -> u64 {
@@ -20,7 +20,7 @@ fn brightness(harness: &mut Harness<'_, LumenApp>) -> u64 {
 
 #[test]
 fn ambient_occlusion_is_switched_in_the_view_menu() {
-    let (mut harness, _) = app(DESKTOP);
+    let (mut harness, _) = seen(|| app(DESKTOP));
     settle_wholly(&mut harness);
     is_switched(&mut harness);
     // The cells of a comparison follow.

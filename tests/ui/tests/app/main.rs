@@ -24,6 +24,7 @@ mod reveal;
 mod scans;
 mod sharing;
 mod sight;
+mod solver;
 mod spoken;
 mod targets;
 mod teaching;

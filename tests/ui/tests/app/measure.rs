@@ -14,7 +14,7 @@ use lumen::phantom::Sample;
 use lumen::pipeline::settings::{Preset, Settings, Target};
 use lumen::sharing::measures::{Found, MadeOn, Measure};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, offered, open, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, offered, open, says, seen, settle, settle_wholly, tube};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 
@@ -256,7 +256,7 @@ fn pictures(page: &str) -> Vec<Vec<u8>> {
 
 #[test]
 fn the_report_lists_them_and_draws_them_on_the_plain_surfaces_where_the_views_do() {
-    let (mut harness, memory) = measuring(DESKTOP, "tube.obj", tube(4.0, 60.0, 0.8));
+    let (mut harness, memory) = seen(|| measuring(DESKTOP, "tube.obj", tube(4.0, 60.0, 0.8)));
     take(&mut harness, "Ruler");
     click(&mut harness, Vec3::new(0.0, -4.0, 10.0));
     click(&mut harness, Vec3::new(0.0, -4.0, 30.0));
@@ -282,7 +282,7 @@ fn the_report_lists_them_and_draws_them_on_the_plain_surfaces_where_the_views_do
 
 #[test]
 fn the_clip_plane_opens_the_surface_in_both_views_and_is_flipped() {
-    let (mut harness, _) = measuring(DESKTOP, "tube.obj", tube(4.0, 60.0, 0.8));
+    let (mut harness, _) = seen(|| measuring(DESKTOP, "tube.obj", tube(4.0, 60.0, 0.8)));
     let part = |harness: &mut Harness<'_, LumenApp>, z: f32| {
         // Away from where anything would be told of what lies under the pointer.
         harness.hover_at(Pos2::new(4.0, 796.0));

@@ -4,7 +4,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, PHONE, app, open, says, settle, settle_wholly, tube, unfold};
+use lumen_ui_tests::{DESKTOP, PHONE, app, open, says, seen, settle, settle_wholly, tube, unfold};
 
 fn press(harness: &mut Harness<'_, LumenApp>, role: Role, label: &str) {
     if role != Role::Button || label.contains(": ") {
@@ -66,7 +66,7 @@ fn wall() -> Vec<u8> {
 
 #[test]
 fn holes_and_fins_are_listed_shown_one_after_the_other_and_mended() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = seen(|| app(DESKTOP));
     settle(&mut harness);
     open(&mut harness, &memory, "faulty.obj", faulty());
     assert!(says(&harness, "needs mending"), "the folded step says it");
@@ -95,7 +95,7 @@ fn holes_and_fins_are_listed_shown_one_after_the_other_and_mended() {
 
 #[test]
 fn a_wall_is_told_and_its_lumen_taken_at_a_click() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = seen(|| app(DESKTOP));
     settle(&mut harness);
     open(&mut harness, &memory, "wall.obj", wall());
     assert!(says(&harness, "The surface is a wall with two sides, 1.0"), "the verdict says it");
@@ -127,7 +127,7 @@ fn a_sound_file_has_nothing_to_mend_and_the_section_is_folded() {
 
 #[test]
 fn a_phone_has_room_for_it() {
-    let (mut harness, memory) = app(PHONE);
+    let (mut harness, memory) = seen(|| app(PHONE));
     settle(&mut harness);
     open(&mut harness, &memory, "faulty.obj", faulty());
     unfold(&mut harness, "Surface");

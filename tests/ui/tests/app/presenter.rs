@@ -5,7 +5,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, PHONE, app, says, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, PHONE, app, says, seen, settle, settle_wholly};
 
 fn picture(harness: &mut Harness<'_, LumenApp>) -> Vec<[u8; 4]> {
     harness.render().unwrap().pixels().map(|pixel| pixel.0).collect()
@@ -55,7 +55,7 @@ fn letters_grow_the_panel_goes_but_for_what_is_dragged_and_escape_brings_all_bac
 
 #[test]
 fn a_key_is_shown_and_goes_again_and_the_pointer_has_a_halo() {
-    let (mut harness, _) = app(DESKTOP);
+    let (mut harness, _) = seen(|| app(DESKTOP));
     // What is measured in the background is told in what stays of the panel.
     settle_wholly(&mut harness);
     harness.key_press(Key::P);

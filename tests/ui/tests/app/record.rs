@@ -8,7 +8,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Settings, Target};
 use lumen::sharing::{SharedSettings, write_settings};
 use lumen_ui_tests::{
-    DESKTOP, Kept, Memory, PHONE, app_at, app_in_full, offered, open, page, says, settle, settle_wholly, tube,
+    DESKTOP, Kept, Memory, PHONE, app_at, app_in_full, offered, open, page, says, seen, settle, settle_wholly, tube,
 };
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
@@ -36,7 +36,7 @@ fn info(bytes: &[u8]) -> png::Reader<std::io::Cursor<&[u8]>> {
 #[test]
 fn the_menu_repeats_the_verdict_and_gives_a_report_in_both_forms() {
     for size in [DESKTOP, PHONE] {
-        let (mut harness, memory) = opened(size);
+        let (mut harness, memory) = seen(|| opened(size));
         menu(&mut harness);
         assert!(says(&harness, "Safe to simulate on: ") && says(&harness, " keep their calibre to 2 %"));
         click(&mut harness, "Report...");
@@ -113,7 +113,7 @@ fn case_and_comment_stand_in_the_report_alone_until_another_surface_is_opened() 
 
 #[test]
 fn a_picture_is_as_large_as_asked_and_can_have_nothing_behind_it() {
-    let (mut harness, memory) = opened(DESKTOP);
+    let (mut harness, memory) = seen(|| opened(DESKTOP));
     menu(&mut harness);
     click(&mut harness, "Picture (PNG)");
     click(&mut harness, "1920 pixels...");
@@ -156,7 +156,7 @@ fn menu_again(harness: &mut Harness<'_, LumenApp>) {
 
 #[test]
 fn a_turntable_turns_once_and_can_be_cancelled() {
-    let (mut harness, memory) = opened(DESKTOP);
+    let (mut harness, memory) = seen(|| opened(DESKTOP));
     menu(&mut harness);
     click(&mut harness, "Turntable (APNG)...");
     assert!(says(&harness, "Turntable"));
@@ -184,7 +184,7 @@ fn a_turntable_turns_once_and_can_be_cancelled() {
 
 #[test]
 fn the_reduction_is_played_there_and_back_and_saved_as_a_moving_picture() {
-    let (mut harness, memory) = app_at(DESKTOP, 0.05);
+    let (mut harness, memory) = seen(|| app_at(DESKTOP, 0.05));
     settle_wholly(&mut harness);
     let state = |harness: &Harness<'_, LumenApp>| {
         let document = harness.state().state().document.as_ref().unwrap();
@@ -313,7 +313,7 @@ fn numbers(svg: &str, element: &str, attribute: &str) -> Vec<Vec<f32>> {
 
 #[test]
 fn a_plot_is_saved_as_it_stands_in_the_window() {
-    let (mut harness, memory) = opened([1280.0, 1400.0]);
+    let (mut harness, memory) = seen(|| opened([1280.0, 1400.0]));
     click(&mut harness, "Response");
     settle(&mut harness);
     click(&mut harness, "Save plot: Response");

@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::pipeline::settings::Keep;
-use lumen_ui_tests::{DESKTOP, app, drag, moving_app, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, app, drag, moving_app, seen, settle, settle_wholly};
 
 /// The line in the shaded view.
 const LINE: &str = "Divider between as opened and now";
@@ -15,7 +15,7 @@ const LINE_IN_WIREFRAME: &str = "Divider in the wireframe";
 
 #[test]
 fn the_line_parts_what_was_opened_from_what_it_has_become() {
-    let (mut harness, _) = app(DESKTOP);
+    let (mut harness, _) = seen(|| app(DESKTOP));
     settle_wholly(&mut harness);
     let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
     let part = |harness: &mut Harness<'_, LumenApp>, left: f32, right: f32| part(harness, view, left, right);
@@ -43,7 +43,7 @@ fn part(harness: &mut Harness<'_, LumenApp>, view: egui::Rect, left: f32, right:
 
 #[test]
 fn the_wireframe_is_parted_by_the_same_line_where_that_is_chosen() {
-    let (mut harness, _) = app(DESKTOP);
+    let (mut harness, _) = seen(|| app(DESKTOP));
     settle_wholly(&mut harness);
     let view = harness.get_by_role_and_label(Role::Image, "Wireframe view").rect();
     let parts = |harness: &mut Harness<'_, LumenApp>| [part(harness, view, 0.0, 0.4), part(harness, view, 0.5, 1.0)];
@@ -120,7 +120,7 @@ fn at_the_start_the_line_comes_from_the_right_where_motion_is_welcome() {
 
 #[test]
 fn laplacian_smoothing_is_seen_at_the_left_of_the_line_and_goes_again() {
-    let (mut harness, _) = app(DESKTOP);
+    let (mut harness, _) = seen(|| app(DESKTOP));
     settle_wholly(&mut harness);
     harness.get_by_label("Response").click();
     harness.run_steps(10);

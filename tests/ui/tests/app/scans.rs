@@ -12,7 +12,7 @@ use lumen::engine::scan::NamedFile;
 use lumen::io::{Axes, Format, ImportOptions, read, write};
 use lumen::language::{self, Language};
 use lumen::phantom::{Sample, generate};
-use lumen_ui_tests::{DESKTOP, Kept, Memory, app, offered, page, says, settle, unfold};
+use lumen_ui_tests::{DESKTOP, Kept, Memory, app, offered, page, says, seen, settle, unfold};
 
 use crate::recovery::{choose, tell};
 
@@ -156,7 +156,7 @@ fn axes_that_were_chosen_come_back_with_the_file_and_are_turned_on_saving() {
 
 #[test]
 fn slices_stand_behind_the_surface_and_are_moved() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = seen(|| app(DESKTOP));
     make(&mut harness, &memory, "AnatomicalOrientation = RAI\n");
     let before = picture(&mut harness, "none");
     // The view is from the front: the coronal plane is seen as it lies, the axial one from its edge, by the outline.

@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Settings, Target};
-use lumen_ui_tests::{DESKTOP, Kept, app, app_in_full, page, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, Kept, app, app_in_full, page, says, seen, settle, settle_wholly, tube};
 
 use crate::controls::press_at;
 use crate::recovery::{notice, tell};
@@ -253,7 +253,7 @@ fn the_words_are_explained_and_the_papers_named() {
 
 #[test]
 fn a_symbol_of_an_equation_lights_its_slider_and_the_slider_lights_the_symbol() {
-    let (mut harness, memory) = app([1280.0, 1600.0]);
+    let (mut harness, memory) = seen(|| app([1280.0, 1600.0]));
     settle(&mut harness);
     memory.borrow_mut().runs = false;
     let head = harness.query_all_by_role_and_label(Role::DisclosureTriangle, "Equations: Smooth").next().unwrap();

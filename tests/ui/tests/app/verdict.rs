@@ -10,7 +10,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::io::Unit;
 use lumen::pipeline::settings::{Keep, Settings, Smoothing, Target};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{DESKTOP, app, app_in_full, open, phone, says, settle, settle_wholly, tube, unfold};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, open, phone, says, settle, settle_wholly, slow_app, tube, unfold};
 
 use crate::mending::faulty;
 use crate::targets::fits_a_finger;
@@ -22,8 +22,9 @@ fn click(harness: &mut Harness<'_, LumenApp>, label: &str) {
 
 #[test]
 fn what_is_safe_is_told_above_everything_and_leads_to_the_vessels() {
+    let (slow, _) = slow_app(DESKTOP, Duration::from_millis(1));
+    assert!(!says(&slow, "Safe to simulate on"), "before it is known");
     let (mut harness, _) = app_in_full(DESKTOP);
-    assert!(!says(&harness, "Safe to simulate on"), "before it is known");
     settle_wholly(&mut harness);
     let head = harness.get_by_label("Safe to simulate on").rect();
     let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
@@ -205,8 +206,7 @@ fn on_a_phone_what_would_help_is_in_a_list() {
 
 #[test]
 fn what_was_cancelled_is_not_said_to_be_measured() {
-    let (mut harness, memory) = app(DESKTOP);
-    memory.borrow_mut().slice = Duration::from_millis(1);
+    let (mut harness, memory) = slow_app(DESKTOP, Duration::from_millis(1));
     let is_shown = |harness: &Harness<'_, LumenApp>| {
         let state = harness.state().state();
         state.is_busy() && state.document.as_ref().is_some_and(|document| document.shown.is_some())

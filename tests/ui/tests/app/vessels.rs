@@ -8,7 +8,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::Calibre;
 use lumen::pipeline::settings::Smoothing;
 use lumen::vessel::certificate::Verdict;
-use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, drag, offered, open, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, drag, offered, open, says, seen, settle, settle_wholly, tube};
 
 use crate::controls::type_into;
 
@@ -82,7 +82,7 @@ fn the_allowed_change_decides_the_verdict_and_is_a_step_to_undo() {
 
 #[test]
 fn colours_show_one_thing_at_a_time_and_change_the_picture() {
-    let mut harness = vessels(DESKTOP);
+    let mut harness = seen(|| vessels(DESKTOP));
     let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect().shrink(2.0);
     let middle = |harness: &mut Harness<'_, LumenApp>| {
         let picture = harness.render().unwrap();
@@ -102,7 +102,7 @@ fn colours_show_one_thing_at_a_time_and_change_the_picture() {
 
 #[test]
 fn what_is_not_measured_has_a_colour_of_its_own_that_the_legend_names() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = seen(|| app(DESKTOP));
     settle(&mut harness);
     let bytes = tube(3.0, 12.0, 0.5);
     memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "tube.obj".to_owned(), bytes });

@@ -4,7 +4,7 @@ use egui::Key;
 use egui::accesskit::{Role, Toggled};
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen_ui_tests::told::{App, press};
-use lumen_ui_tests::{DESKTOP, PHONE, app, drag, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, PHONE, app, drag, seen, settle, settle_wholly};
 
 use crate::controls::{open, safe_percent};
 
@@ -29,7 +29,7 @@ fn theme_help_and_about_open_and_close() {
 
 #[test]
 fn the_views_turn_under_a_drag_and_show_the_surface_as_opened_while_b_is_held() {
-    let mut harness = open();
+    let mut harness = seen(open);
     // What comes in the background changes the panel, and must not come between two pictures.
     safe_percent(&mut harness);
     let picture = harness.render().unwrap();

@@ -21,10 +21,11 @@ use glam::DVec3;
 
 use super::super::super::detect::{self, DataSet};
 use super::super::super::error::Feature;
+use super::super::super::offer::LabelName;
 use super::super::super::problem::{DicomProblem, ScanProblem};
 use super::super::error::ScanError;
 use super::super::numbers::{LARGEST, MAX_UNFOLDED};
-use super::tags;
+use super::{colours, tags};
 
 pub(super) const FORMAT: &str = "DICOM";
 
@@ -38,6 +39,7 @@ pub(super) enum Packing {
     Big,
     Rle,
     Jpeg,
+    JpegLs,
     Jpeg2000,
 }
 
@@ -122,7 +124,7 @@ impl<'a> File<'a> {
             let is_first = if is_told {
                 offsets.next_if_eq(&at).is_some()
             } else {
-                // A JPEG picture, or a codestream of JPEG 2000.
+                // A picture of JPEG or JPEG-LS, or a codestream of JPEG 2000.
                 fragment.starts_with(&[0xFF, 0xD8]) || fragment.starts_with(&[0xFF, 0x4F])
             };
             at += HEADER + fragment.len();
@@ -228,15 +230,17 @@ impl<'a> File<'a> {
         self.own(tags::SEGMENTATION_TYPE).is_some()
     }
 
-    /// Number and name of each segment that has one.
-    pub(super) fn segments(&self) -> impl Iterator<Item = (u16, String)> {
+    /// Each segment that has a name.
+    pub(super) fn segments(&self) -> impl Iterator<Item = LabelName> {
         // The first that it names; Latin-1 is the one beside UTF-8 that these names have in practice.
         let letters = self.text(tags::LETTERS);
         let is_latin_1 = matches!(letters.split('\\').next(), Some("ISO_IR 100" | "ISO 2022 IR 100"));
         let name = move |value: Value| if is_latin_1 { latin_1(value.bytes) } else { text(value.bytes) };
         self.segments.iter().filter_map(move |values| {
             let (number, label) = (find(values, tags::SEGMENT_NUMBER)?, find(values, tags::SEGMENT_LABEL)?);
-            Some((number.short(), name(label))).filter(|(_, name)| !name.is_empty())
+            let colour = find(values, tags::SEGMENT_COLOUR).and_then(Value::shorts).map(colours::of_lab);
+            let named = LabelName { value: number.short().into(), name: name(label), colour };
+            Some(named).filter(|named| !named.name.is_empty())
         })
     }
 
@@ -265,8 +269,14 @@ fn find<'a>(values: &[Value<'a>], tag: Tag) -> Option<Value<'a>> {
 impl Value<'_> {
     /// As a whole number of 16 bits.
     pub(super) fn short(self) -> u16 {
-        let word = self.bytes.first_chunk().copied().unwrap_or_default();
-        if self.is_big_endian { u16::from_be_bytes(word) } else { u16::from_le_bytes(word) }
+        self.shorts().map_or(0, |[word]| word)
+    }
+
+    /// The first whole numbers of 16 bits in it.
+    fn shorts<const N: usize>(self) -> Option<[u16; N]> {
+        let words: &[[u8; 2]; N] = self.bytes.as_chunks().0.first_chunk()?;
+        let word = if self.is_big_endian { u16::from_be_bytes } else { u16::from_le_bytes };
+        Some(words.map(word))
     }
 
     /// The first number in it.
@@ -409,7 +419,7 @@ fn packing(syntax: &str, data_set: &[u8]) -> Result<(Packing, TransferSyntax), S
         ".2" => Ok((Packing::Big, entries::EXPLICIT_VR_BIG_ENDIAN.erased())),
         ".5" => Ok((Packing::Rle, explicit)),
         ".4.50" | ".4.51" | ".4.57" | ".4.70" => Ok((Packing::Jpeg, explicit)),
-        ".4.80" | ".4.81" => refused(Feature::JpegLs),
+        ".4.80" | ".4.81" => Ok((Packing::JpegLs, explicit)),
         ".4.90" | ".4.91" => Ok((Packing::Jpeg2000, explicit)),
         // Of several components, and of high throughput.
         ".4.92" | ".4.93" | ".4.201" | ".4.202" | ".4.203" => refused(Feature::Jpeg2000),

@@ -5,7 +5,9 @@
 //! what it differs in. Files that cannot be read are left out and counted, as long as there are others. Nothing that names a
 //! patient is looked at, kept or reported, a file's name neither.
 
+mod colours;
 mod file;
+mod jpeg_ls;
 mod pixels;
 mod segments;
 mod tags;
@@ -140,7 +142,7 @@ fn scan(mut slices: Vec<Slice>, unreadable: &mut Unreadable, warnings: &mut Vec<
     let grid = Grid::new(geometry, samples, slope, intercept)?;
     let mut scan = Scan::new(grid, FORMAT, Axes::Lps);
     scan.is_ct = slices[0].file.text(tags::MODALITY) == "CT";
-    scan.names = slices[0].file.segments().map(|(number, name)| (number.into(), name)).collect();
+    scan.names = slices[0].file.segments().collect();
     Ok(scan)
 }
 

@@ -1,4 +1,4 @@
-//! The pixels of a frame: as they are, by run lengths (DICOM PS3.5, annex G), or as a JPEG or JPEG 2000 picture.
+//! The pixels of a frame: as they are, by run lengths (DICOM PS3.5, annex G), or as a JPEG, JPEG-LS or JPEG 2000 picture.
 //!
 //! The codecs of `dicom-transfer-syntax-registry` are not used: where a picture is smaller than the file says, or a run ends
 //! early, they index beyond it and panic. Its JPEG decoder is used directly; run lengths are thirty lines. JPEG 2000 is read by
@@ -12,6 +12,7 @@ use super::super::super::problem::DicomProblem;
 use super::super::error::ScanError;
 use super::super::numbers::{LARGEST, MAX_UNFOLDED};
 use super::file::{FORMAT, File, Packing};
+use super::jpeg_ls;
 
 /// The pixels of frame `frame` of a file, in little-endian order.
 pub(super) fn frame(file: &File, frame: usize) -> Result<Vec<u8>, ScanError> {
@@ -26,15 +27,17 @@ pub(super) fn frame(file: &File, frame: usize) -> Result<Vec<u8>, ScanError> {
         return bits(file, frame, bytes).ok_or_else(short);
     }
     match file.packing {
-        Some(kind @ (Packing::Rle | Packing::Jpeg | Packing::Jpeg2000)) => {
+        Some(kind @ (Packing::Rle | Packing::Jpeg | Packing::JpegLs | Packing::Jpeg2000)) => {
             let packed = packed(file, frame).ok_or_else(short)?;
-            // Of an empty slice JPEG 2000 keeps hardly more than its size.
-            let most = if kind == Packing::Jpeg2000 { 64 * MAX_UNFOLDED } else { MAX_UNFOLDED };
+            // Of an empty slice JPEG 2000 keeps hardly more than its size, and JPEG-LS a bit for each row.
+            let is_dense = matches!(kind, Packing::JpegLs | Packing::Jpeg2000);
+            let most = if is_dense { 64 * MAX_UNFOLDED } else { MAX_UNFOLDED };
             if bytes as u64 > most * packed.len() as u64 {
                 return Err(short());
             }
             match kind {
                 Packing::Rle => run_lengths(&packed, size, bytes).ok_or_else(short),
+                Packing::JpegLs => predicted(&packed, file),
                 Packing::Jpeg2000 => wavelets(&packed, file),
                 _ => picture(&packed, file),
             }
@@ -141,6 +144,21 @@ fn picture(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
         (2, _) => pixels.as_chunks().0.iter().flat_map(|&word| u16::from_ne_bytes(word).to_le_bytes()).collect(),
         _ => pixels,
     })
+}
+
+/// Decodes a JPEG-LS picture.
+fn predicted(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
+    let damaged = || ScanError::malformed(FORMAT, DicomProblem::Jpeg);
+    let picture = jpeg_ls::Picture::parse(packed).ok_or_else(damaged)?;
+    if (picture.columns, picture.rows) != (file.columns, file.rows)
+        || u16::from(picture.bits) > file.bits_allocated
+        || !matches!(file.bits_allocated, 8 | 16 | 32)
+    {
+        return Err(ScanError::malformed(FORMAT, DicomProblem::JpegSize));
+    }
+    let samples = picture.decode().ok_or_else(damaged)?;
+    let size = usize::from(file.bits_allocated / 8);
+    Ok(samples.into_iter().flat_map(|sample| u32::from(sample).to_le_bytes().into_iter().take(size)).collect())
 }
 
 /// What a JPEG 2000 picture says first (ISO/IEC 15444-1, A.5.1): its size, its tiles and the numbers of its one component. It

@@ -12,7 +12,7 @@ use std::rc::Rc;
 use super::super::super::axes::Axes;
 use super::super::super::error::Feature;
 use super::super::super::numbers::Scalar;
-use super::super::super::offer::VolumeField;
+use super::super::super::offer::{LabelName, VolumeField};
 use super::super::super::problem::DicomProblem;
 use super::super::super::problem::ScanProblem;
 use super::super::super::warnings::Warning;
@@ -56,8 +56,8 @@ pub(super) fn split<'f, 'a>(mut slices: Vec<Slice<'f, 'a>>) -> Vec<Volume<'f, 'a
         return vec![volume(None, None)];
     }
     let names = segments.names.into_iter();
-    let of_segment = |(label, name): (u16, Option<String>)| {
-        let name = name.unwrap_or_else(|| label.to_string());
+    let of_segment = |(label, named): (u16, Option<LabelName>)| {
+        let name = named.map_or_else(|| label.to_string(), |named| named.name);
         volume(Some((VolumeField::Segment, name)), Some(label))
     };
     names.map(of_segment).collect()
@@ -86,7 +86,7 @@ impl Identity {
 struct Segments {
     labels: BTreeMap<Identity, u16>,
     /// As far as files name them.
-    names: Vec<(u16, Option<String>)>,
+    names: Vec<(u16, Option<LabelName>)>,
 }
 
 impl Segments {
@@ -112,9 +112,9 @@ fn files<'f, 'a>(slices: &[Slice<'f, 'a>]) -> BTreeMap<usize, &'f File<'a>> {
     slices.iter().map(|slice| (Identity::of(slice).file, slice.file)).collect()
 }
 
-/// The names that the files of slices have for their segments.
-fn names(slices: &[Slice]) -> BTreeMap<Identity, String> {
-    let of_file = |file| File::segments(file).map(move |(number, name)| (Identity::new(file, number), name));
+/// What the files of slices call their segments.
+fn names(slices: &[Slice]) -> BTreeMap<Identity, LabelName> {
+    let of_file = |file| File::segments(file).map(move |named| (Identity::new(file, named.value as u16), named));
     files(slices).into_values().flat_map(of_file).collect()
 }
 
@@ -177,7 +177,8 @@ pub(super) fn label_map(volume: &Volume, warnings: &mut Vec<Warning>) -> Result<
         target.zip(inside(slice)?).filter(|(_, inside)| *inside).for_each(|(label, _)| *label = segment);
     }
     let mut scan = Scan::new(Grid::new(geometry, Samples::U16(labels), 1.0, 0.0)?, FORMAT, Axes::Lps);
-    let named = segments.names.into_iter().filter_map(|(label, name)| Some((label.into(), name?)));
+    let named =
+        segments.names.into_iter().filter_map(|(label, named)| Some(LabelName { value: label.into(), ..named? }));
     scan.names = named.collect();
     Ok(scan)
 }

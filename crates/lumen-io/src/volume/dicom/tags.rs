@@ -59,7 +59,8 @@ pub(super) const TEMPORAL_OFFSET: Tag = Tag(0x0020, 0x930D);
 pub(super) const SEGMENTS: Tag = Tag(0x0062, 0x0002);
 pub(super) const SEGMENT_NUMBER: Tag = Tag(0x0062, 0x0004);
 pub(super) const SEGMENT_LABEL: Tag = Tag(0x0062, 0x0005);
-pub(super) const OF_SEGMENT: [Tag; 2] = [SEGMENT_NUMBER, SEGMENT_LABEL];
+pub(super) const SEGMENT_COLOUR: Tag = Tag(0x0062, 0x000D);
+pub(super) const OF_SEGMENT: [Tag; 3] = [SEGMENT_NUMBER, SEGMENT_LABEL, SEGMENT_COLOUR];
 
 /// What is said of all frames, and of each of them.
 pub(super) const SHARED_GROUPS: Tag = Tag(0x5200, 0x9229);

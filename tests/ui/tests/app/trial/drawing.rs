@@ -10,7 +10,7 @@ use lumen::trial::setup::Input;
 use lumen_ui_tests::told::{
     App, DESKTOP, FIRST, PHONE, asked, at_entry, frame, id_of_start, now, on, press, ready, retarget, says, start, tell,
 };
-use lumen_ui_tests::{app, drag, settle};
+use lumen_ui_tests::{app, drag, seen, settle};
 
 use super::picture;
 
@@ -95,7 +95,7 @@ fn a_phone_has_all_controls_and_stacks_the_views() {
 
 #[test]
 fn a_restart_shows_the_wire_at_its_entry_at_once_and_then_what_is_told() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = seen(|| app(DESKTOP));
     settle(&mut harness);
     start(&mut harness);
     let id = id_of_start(&asked(&memory));
@@ -166,7 +166,7 @@ fn the_scale_of_forces_stays_from_run_to_run() {
 
 #[test]
 fn a_step_back_forgets_what_the_wall_has_felt_since() {
-    let (mut harness, memory) = on(DESKTOP);
+    let (mut harness, memory) = seen(|| on(DESKTOP));
     let felt = |id, force| TrialEvent::Felt { id, touches: vec![Touch { at: [0.0; 3], triangle: 0, force }] };
     let before = picture(&mut harness, "Trial view");
     tell(&mut harness, &memory, [felt(FIRST, 0.9), now(FIRST, Frame { step: 900, ..frame() })]);

@@ -5,7 +5,7 @@ use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 use lumen::phantom::Sample;
 use lumen_ui_tests::told::{App, DESKTOP, PHONE, as_the_paper, open_coronary, press, start, wait};
-use lumen_ui_tests::{app, settle};
+use lumen_ui_tests::{app, seen, settle};
 
 use super::ADAPT;
 
@@ -14,8 +14,8 @@ use super::ADAPT;
 fn pictures_of_the_trial() {
     let phone = [(PHONE, "phone", Sample::Aorta)].into_iter();
     let desktop = [Sample::Aorta, Sample::Coronary].map(|sample| (DESKTOP, "desktop", sample)).into_iter();
-    for (size, name, sample) in phone.chain(desktop.filter(|_| std::env::var_os("LUMEN_LONG").is_some())) {
-        let (mut harness, memory) = app(size);
+    for (size, name, sample) in phone.chain(desktop.filter(|_| lumen_test_support::is_long())) {
+        let (mut harness, memory) = seen(|| app(size));
         settle(&mut harness);
         if sample == Sample::Coronary {
             open_coronary(&mut harness);

@@ -8,7 +8,7 @@ use lumen_ui_tests::told::{
     App, DESKTOP, as_the_paper, asked, frame, id_of_start, now, on, open_coronary, press, ready, refused, retarget,
     says, start, tell, wait,
 };
-use lumen_ui_tests::{app, app_in_full, settle};
+use lumen_ui_tests::{app, app_in_full, seen, settle};
 
 use super::{ADAPT, picture};
 
@@ -43,7 +43,7 @@ fn part_drawn(harness: &mut App, view: &str) -> f64 {
 
 #[test]
 fn a_refusal_keeps_the_vessel_in_view_and_goes_to_the_place_that_is_too_thin() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = seen(|| app(DESKTOP));
     settle(&mut harness);
     start(&mut harness);
     let commands = asked(&memory);

@@ -6,6 +6,7 @@ use lumen::engine::trial::TrialEvent;
 use lumen::trial::frame::{Frame, Progress, Touch};
 use lumen::trial::report::{StepCounts, StepKind, StepReport};
 use lumen::trial::summary::Summary;
+use lumen_ui_tests::seen;
 use lumen_ui_tests::told::{
     App, DESKTOP, FIRST, asked, at_entry, ended, frame, id_of_start, now, on, press, says, tell,
 };
@@ -97,7 +98,7 @@ fn a_trial_that_dies_is_told_and_the_surface_stays() {
 
 #[test]
 fn a_fork_that_was_missed_is_gone_to_and_ringed_until_the_wire_is_back_at_its_entry() {
-    let (mut harness, memory) = on(DESKTOP);
+    let (mut harness, memory) = seen(|| on(DESKTOP));
     let view = harness.get_by_role_and_label(Role::Image, "Trial view").rect();
     // The part of a circle of 14 points about the middle of the view that is red.
     let ringed = |harness: &mut App| {

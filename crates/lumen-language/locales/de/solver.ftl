@@ -1,0 +1,160 @@
+### Der Schritt, der eine Stufe für einen Strömungs- oder Strukturlöser fertig macht.
+
+solver-title = Für einen Löser
+solver-does = Schneidet, verlängert und schließt die Enden der Stufe und macht ihre Dreiecke gleichmäßig, für Strömungs- und Strukturlöser.
+solver-work = Die Oberfläche wird für einen Löser fertig gemacht
+
+## Was getan wird
+
+solver-uncross = Durchdringungen auflösen
+solver-uncross-help = Dreiecke, die in andere ragen, werden auseinandergeschoben oder ausgeschnitten und neu geschlossen
+solver-clip = Enden schneiden
+solver-clip-help = Senkrecht zur Zentrallinie
+solver-clip-none = wie sie sind
+solver-clip-round = wo rund
+solver-clip-distance = in einem Abstand
+solver-clip-by = Abstand vom Ende
+solver-extend = Enden verlängern
+solver-extend-help = Ein gerades Rohr, das entlang der Wand abgeht und zu einem Kreis gleicher Fläche wird
+solver-extend-by = Länge der Verlängerungen
+solver-radii-help = In Radien des Gefäßes an seinem Ende
+solver-radii = { " " }Radien
+solver-cap = Enden schließen
+solver-cap-help = Mit einem eigenen Teil für jedes Ende
+solver-cap-none = offen lassen
+solver-cap-planar = eben, gleichmäßig
+solver-cap-fan = eben, als Fächer
+solver-cap-smooth = als Kuppel
+solver-remesh = Dreiecke neu bilden
+solver-remesh-help = Fast gleichseitige Dreiecke, so groß, wie es zum Kaliber passt
+solver-around = Kanten um ein Gefäß
+solver-least = Kürzeste Kante
+solver-largest = Längste Kante
+solver-bound = Abweichung begrenzen
+solver-bound-help = Kleinere Dreiecke, wo sich die Oberfläche krümmt
+solver-bound-mm = Größte Abweichung
+solver-prepare = Fertig machen
+solver-prepare-help = Aus der gezeigten Stufe; sie selbst bleibt, wie sie ist
+solver-show-level = Stufe zeigen
+solver-show-made = Ergebnis zeigen
+
+## Was daraus wurde
+
+solver-triangles = { $count ->
+    [one] ein Dreieck
+   *[other] { $count } Dreiecke
+}
+solver-failed = Die Stufe kann nicht fertig gemacht werden: { $why }.
+solver-older = Aus einer anderen Stufe oder mit anderen Einstellungen als jetzt gemacht.
+solver-ready = Nichts gefunden, was einen Volumenvernetzer aufhält.
+solver-not-ready = Ein Volumenvernetzer nimmt sie so nicht:
+solver-crossed = Sich durchdringende Dreiecke: { $before } vorher, { $after } übrig.
+solver-result-triangles = Dreiecke
+solver-quality = Mittlere Güte
+solver-quality-help = 4√3 mal Fläche durch die Summe der quadrierten Seiten: 1 für gleichseitige Dreiecke
+solver-below = Unter 30°
+solver-below-help = Dreiecke mit einem kleineren Winkel
+solver-deviation = Abweichung
+solver-deviation-help = Der größte Abstand zwischen der Oberfläche vor und nach der Neubildung der Dreiecke
+solver-go = Dorthin
+solver-go-to = Dorthin: { $what }
+solver-name = Name
+solver-name-of = Name von { $name }
+solver-id = Id
+solver-area = mm²
+solver-radius = r, mm
+solver-names = Namen können geändert werden; Dateien enthalten sie.
+solver-save = Für einen Löser speichern
+
+## Was ein Volumenvernetzer beanstandet
+
+check-empty = Die Oberfläche hat kein Dreieck.
+check-broken = { $count ->
+    [one] Ein Punkt oder Dreieck hat Zahlen, die nicht endlich oder außerhalb des Bereichs sind.
+   *[other] { $count } Punkte oder Dreiecke haben Zahlen, die nicht endlich oder außerhalb des Bereichs sind.
+}
+check-open-rims = { $count ->
+    [one] Die Oberfläche ist an einem Rand offen.
+   *[other] Die Oberfläche ist an { $count } Rändern offen.
+}
+check-shared-edges = { $count ->
+    [one] Eine Kante hat mehr als zwei Dreiecke.
+   *[other] { $count } Kanten haben mehr als zwei Dreiecke.
+}
+check-duplicates = { $count ->
+    [one] Ein Dreieck ist doppelt vorhanden.
+   *[other] { $count } Dreiecke sind mehrfach vorhanden.
+}
+check-degenerate = { $count ->
+    [one] Ein Dreieck hat keine Fläche.
+   *[other] { $count } Dreiecke haben keine Fläche.
+}
+check-crossing = { $count ->
+    [one] Ein Dreieck ragt in ein anderes.
+   *[other] { $count } Dreiecke ragen in andere.
+}
+check-folds = { $count ->
+    [one] Die Oberfläche ist an einer Kante auf sich selbst gefaltet.
+   *[other] Die Oberfläche ist an { $count } Kanten auf sich selbst gefaltet.
+}
+check-coincident = { $count ->
+    [one] Ein Punkt liegt an der Stelle eines anderen und ist nicht mit ihm verbunden.
+   *[other] { $count } Punkte liegen an der Stelle anderer und sind nicht mit ihnen verbunden.
+}
+check-windings = { $count ->
+    [one] Die Dreiecke an einer Kante zeigen nach verschiedenen Seiten.
+   *[other] Die Dreiecke an { $count } Kanten zeigen nach verschiedenen Seiten.
+}
+check-inside-out = { $count ->
+    [one] Ein geschlossenes Stück zeigt nach innen.
+   *[other] { $count } geschlossene Stücke zeigen nach innen.
+}
+check-slivers = { $count ->
+    [one] Ein Dreieck hat einen Winkel unter 1 Grad: { $least_degrees } Grad.
+   *[other] { $count } Dreiecke haben einen Winkel unter 1 Grad; der kleinste misst { $least_degrees } Grad.
+}
+check-pieces = { $count ->
+    [one] Die Oberfläche ist ein Stück.
+   *[other] Die Oberfläche besteht aus { $count } Stücken.
+}
+
+## Was anders getan wurde als gewünscht
+
+solver-note-left-out = { $others ->
+    [one] Ein kleineres Stück ist weggelassen.
+   *[other] { $others } kleinere Stücke sind weggelassen.
+}
+solver-note-not-cut = Das Ende bei ({ $at }) ist nicht geschnitten: { $why }.
+solver-note-no-ends = Kein Ende zum Verlängern oder Schließen gefunden: zuerst die Enden schneiden.
+solver-note-filled = { $count ->
+    [one] Ein Loch in der Wand ist gefüllt.
+   *[other] { $count } Löcher in der Wand sind gefüllt.
+}
+solver-note-wall = Die Öffnung bei ({ $at }) ist als Teil der Wand geschlossen: { $why }.
+solver-note-shorter = Die Verlängerung von { $name } ist nur { $mm } mm lang: weiter draußen träfe sie auf etwas.
+solver-note-not-extended = { $name } ist nicht verlängert: { $why }.
+
+## Warum
+
+solver-why-fork = eine Gabelung ist zu nah: { $room_mm } mm sind frei
+solver-why-not-round = das Gefäß ist dort nirgends rund
+solver-why-no-section = die Oberfläche hat dort keinen geschlossenen Querschnitt
+solver-why-open = der Querschnitt läuft in eine Öffnung
+solver-why-coarse = die Dreiecke sind dort zu groß
+solver-why-around = was dahinter liegt, führt außen herum auf die andere Seite
+solver-why-other-end = ein anderes Ende würde abgeschnitten
+solver-why-most = { $percent } % der Oberfläche würden abgeschnitten
+solver-why-folded = sein Umriss ist gefaltet
+solver-why-crossed = sein Umriss kreuzt sich selbst
+solver-why-not-flat = sie liegt in keiner Ebene
+solver-why-long = das ist zu lang für so kleine Dreiecke wie dort
+solver-why-no-room = es ist kein Platz dafür
+solver-why-fine = seine Kanten sind zu kurz für seine Fläche
+solver-why-unsound = die Oberfläche ist dort nicht in Ordnung
+solver-error-empty = die Oberfläche hat keine Dreiecke
+solver-error-unsound = Zahlen der Oberfläche sind nicht endlich oder außerhalb des Bereichs
+solver-error-tree = kein Ende zu finden: { $why }
+solver-error-cap = { $name } kann nicht geschlossen werden: { $why }
+solver-error-mend = Kanten haben mehr als zwei Dreiecke, oder Dreiecke zeigen in entgegengesetzte Richtungen: die Oberfläche zuerst reparieren
+solver-error-sizes = die gewünschten Längen ergeben keinen Sinn
+solver-error-many = so kurze Kanten ergeben etwa { $about } Dreiecke, und höchstens { $most } werden gebildet
