@@ -6,6 +6,7 @@
 mod batch;
 mod branches;
 mod centreline;
+mod compare;
 #[cfg(feature = "gui")]
 mod figures;
 #[cfg(not(feature = "gui"))]
@@ -77,6 +78,8 @@ pub struct Arguments {
 pub enum Command {
     /// Write the centrelines of a surface with their radii and cross-sections
     Centreline(centreline::Centreline),
+    /// Say how far two surfaces are apart, and what became of each vessel
+    Compare(compare::Compare),
     /// Draw Figures 6 and 7 of the paper for a surface, as PNG
     Figures(figures::Figures),
     /// Say what is in a surface file
@@ -109,6 +112,7 @@ impl Command {
     pub fn run(&self) -> ExitCode {
         let result = match self {
             Self::Centreline(command) => command.run(),
+            Self::Compare(command) => command.run(),
             Self::Figures(command) => command.run(),
             Self::Inspect(command) => command.run(),
             Self::Manual(command) => command.run(&Arguments::command()),

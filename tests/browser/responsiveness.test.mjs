@@ -54,16 +54,17 @@ function moveAround(page, count, pattern = "") {
     async ({ count, pattern }) => {
       const canvas = document.getElementById("lumen");
       const matches = new RegExp(pattern);
-      const goesOn = () => [...document.querySelectorAll("#twins *")].some((twin) => matches.test(twin.textContent));
+      const goesOn = () => [...document.querySelectorAll("#twins *")].some((twin) => !twin.firstElementChild && matches.test(twin.textContent));
       const times = [];
       let last = performance.now();
       for (let frame = 0; frame < count && goesOn(); frame++) {
         const place = { clientX: 640 + (frame % 40), clientY: 400, bubbles: true, pointerType: "mouse", isPrimary: true };
         canvas.dispatchEvent(new PointerEvent("pointermove", place));
         canvas.dispatchEvent(new MouseEvent("mousemove", place));
-        await new Promise(requestAnimationFrame);
-        times.push(performance.now() - last);
-        last = performance.now();
+        // What follows is the test's own work, and a task of its own.
+        const now = await new Promise((next) => requestAnimationFrame((now) => setTimeout(next, 0, now)));
+        times.push(now - last);
+        last = now;
       }
       return times;
     },

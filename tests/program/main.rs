@@ -4,6 +4,7 @@
 
 mod batch;
 mod cli;
+mod compare;
 #[cfg(feature = "gui")]
 mod figures;
 mod prepare;

@@ -8,6 +8,9 @@
 //! second surface and the number of pieces does not depend on the bound; where that cuts nothing off, it is halved. A
 //! piece may also be so small, and so near, that the distance of its middle settles it.
 //!
+//! From the largest distance that samples have found, [`reach`] raises the bound until nothing is beyond it: the distance
+//! itself, for certain.
+//!
 //! "Within" is exact but for the rounding of f64, "beyond" to [`TOLERANCE`] and the rounding of a point to f32: samples
 //! are nowhere taken for the whole.
 
@@ -15,7 +18,9 @@ use std::task::Poll;
 
 use glam::{DVec3, Vec3};
 
+use super::TriMesh;
 use super::nearest::{Leaf, Nearest, SurfaceIndex};
+use super::task::Yielder;
 
 /// What lies between "within" and "beyond", as a part of the bound.
 pub const TOLERANCE: f64 = 1e-3;
@@ -36,6 +41,54 @@ pub struct FarPoint {
     pub point: Vec3,
     /// Its distance from the other surface in mm; never more than the truth.
     pub distance: f64,
+}
+
+/// The one-sided Hausdorff distance of a surface from another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// The point of the surface that is farthest, but for less than [`TOLERANCE`] three times of its distance.
+    pub farthest: FarPoint,
+    /// No point of the surface is farther, in mm.
+    pub at_most_mm: f64,
+}
+
+/// Pieces that are settled between two looks at the clock.
+const PIECES: usize = 64;
+
+/// How far `mesh` reaches from `surface`; `None` where one of them has no triangle, or a corner that is not finite.
+/// `known_mm`, a distance that some point is known to have, or 0, saves time.
+pub async fn reach(mesh: &TriMesh, surface: &SurfaceIndex, known_mm: f64, yielder: &Yielder) -> Option<Reach> {
+    let first = mesh.positions[mesh.triangles.first()?[0] as usize];
+    let nearest = surface.nearest(first)?;
+    let mut farthest = FarPoint { point: first, distance: f64::from(nearest.distance) };
+    // What is nearer than the rounding of the coordinates is no distance.
+    let size = mesh.positions.iter().map(|p| p.abs().max_element()).fold(0.0, f32::max);
+    let raised = |distance: f64, by: f64| distance * (1.0 + by * TOLERANCE);
+    let mut bound = HausdorffBound::new(raised(farthest.distance, 2.0).max(f64::from(size * f32::EPSILON)));
+    if known_mm > bound.within {
+        // Whoever has that distance is found: it is beyond a bound that is a little less.
+        bound = HausdorffBound::new(raised(known_mm, -1.0));
+    }
+    for t in 0..mesh.triangles.len() {
+        bound.begin(mesh.corners(t));
+        loop {
+            match bound.advance(surface, PIECES) {
+                Poll::Ready(None) => break,
+                Poll::Ready(Some(found)) if found.distance.is_finite() => {
+                    if found.distance > farthest.distance {
+                        farthest = found;
+                    }
+                    bound.raise(raised(found.distance.max(bound.within), 2.0));
+                }
+                Poll::Ready(Some(_)) => return None,
+                Poll::Pending => yielder.rest(t as f32 / mesh.triangles.len() as f32).await,
+            }
+        }
+        if t % PIECES == 0 {
+            yielder.rest(t as f32 / mesh.triangles.len() as f32).await;
+        }
+    }
+    Some(Reach { farthest, at_most_mm: bound.within })
 }
 
 /// Whether triangles of one surface lie within a bound of another, piece by piece.
@@ -70,6 +123,11 @@ impl HausdorffBound {
     /// Nothing tested yet; `bound` in mm, above 0.
     pub fn new(bound: f64) -> Self {
         Self { within: bound, beyond: bound * (1.0 - TOLERANCE), pieces: Vec::new(), last: None, by: None }
+    }
+
+    /// Another bound, in mm, for what is not settled yet of the triangle that is tested, and for those that follow.
+    pub fn raise(&mut self, bound: f64) {
+        (self.within, self.beyond) = (bound, bound * (1.0 - TOLERANCE));
     }
 
     /// The triangle of the surface that settled a piece last.
@@ -277,6 +335,7 @@ mod tests {
 
     use super::*;
     use crate::TriMesh;
+    use crate::task::at_once;
     use crate::shapes::{icosphere, sagitta, square};
 
     /// The first triangle of `a` that is beyond `bound` of `b`, and the pieces that it took to say so.
@@ -322,6 +381,44 @@ mod tests {
             assert_eq!(beyond(a, b, 2.0 + slack).0, None);
             assert!(beyond(a, b, 2.0 - slack).0.is_some());
         }
+    }
+
+    /// How far `a` reaches from `b`, with nothing known, and with less than it known.
+    fn reached(a: &TriMesh, b: &TriMesh) -> Reach {
+        let index = SurfaceIndex::new(&b.positions, &b.triangles);
+        let [found, known] = [0.0, 0.9].map(|part| {
+            let known = part * at_once(reach(a, &index, 0.0, &Yielder::never())).unwrap().farthest.distance;
+            at_once(reach(a, &index, known, &Yielder::never())).unwrap()
+        });
+        assert!((known.farthest.distance / found.farthest.distance - 1.0).abs() <= 4.0 * TOLERANCE);
+        found
+    }
+
+    #[test]
+    fn the_largest_distance_is_found_for_certain_where_no_corner_has_it() {
+        let flat = square(1, 8.0, 0.0);
+        let mut valley = square(8, 8.0, 0.0);
+        valley.positions.iter_mut().for_each(|p| p.z = -3.0 * (1.0 - (p.x - 4.0).abs() / 4.0));
+        // As in the test before: 2.4 mm down from the middle line, where the flat square has no corner; 3 mm up from it.
+        for (a, b, truth) in [(&flat, &valley, 2.4), (&valley, &flat, 3.0)] {
+            let Reach { farthest, at_most_mm } = reached(a, b);
+            assert!(farthest.distance <= truth * (1.0 + 1e-6) && at_most_mm >= truth, "{farthest:?}, {at_most_mm}");
+            assert!(at_most_mm <= farthest.distance * (1.0 + 4.0 * TOLERANCE), "{farthest:?}, {at_most_mm}");
+            assert!((farthest.point.x - 4.0).abs() < 0.1, "{farthest:?}");
+        }
+    }
+
+    #[test]
+    fn a_surface_does_not_reach_from_itself_and_nothing_reaches_from_nothing() {
+        let sphere = icosphere(3, 20.0, Vec3::new(100.0, 50.0, -30.0));
+        assert!(reached_from_itself(&sphere) < 1e-4);
+        let index = SurfaceIndex::new(&[], &[]);
+        assert_eq!(at_once(reach(&sphere, &index, 0.0, &Yielder::never())), None);
+    }
+
+    fn reached_from_itself(mesh: &TriMesh) -> f64 {
+        let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+        at_once(reach(mesh, &index, 0.0, &Yielder::never())).unwrap().at_most_mm
     }
 
     #[test]

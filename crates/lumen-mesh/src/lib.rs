@@ -54,7 +54,7 @@ pub use components::{Components, components};
 pub use cut::{Outline, cut, cut_pieces};
 pub use flat_caps::{FlatCap, flat_caps, flat_caps_in_slices, without_caps};
 pub use glam::Vec3;
-pub use hausdorff::{FarPoint, HausdorffBound, TOLERANCE};
+pub use hausdorff::{FarPoint, HausdorffBound, Reach, TOLERANCE, reach};
 pub use index_build::IndexBuild;
 pub use inner_ball::{InnerRadii, inner_radii, inner_radii_in_slices, outward_normal};
 pub use inside::Sides;

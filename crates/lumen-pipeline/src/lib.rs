@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
 
+pub mod beside;
 pub mod bound;
 pub mod caps;
 pub mod carry;

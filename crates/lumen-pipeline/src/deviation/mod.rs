@@ -18,11 +18,13 @@
 //! and the map of signed distances: a sample has the sign of the way from the first surface to the second, seen along the
 //! normal of the triangle that it lies on, positive where the second lies outside.
 
+mod align;
 mod map;
 mod sampling;
 mod summary;
 mod task;
 
+pub use align::{Aligned, Rigid, align};
 pub use summary::Deviation;
 pub use task::{Compared, Comparing, Comparison, compare};
 

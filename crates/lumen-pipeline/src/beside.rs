@@ -1,0 +1,98 @@
+//! A surface beside a reference that it was not made from by Lumen: another program's, another resolution, another day.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use crate::deviation::{Comparing, Comparison, Deviation, compare};
+use lumen_mesh::task::Yielder;
+use lumen_mesh::{Reach, SurfaceIndex, TriMesh, Vec3, reach};
+use lumen_vessel::Subject;
+use lumen_vessel::certificate::{CalibreError, Certificate};
+
+/// How a surface is compared with a reference.
+#[derive(Clone, Copy, Debug)]
+pub struct Looking {
+    /// Samples of each, at least one.
+    pub samples: usize,
+    /// The change of a vessel's radius in percent that is allowed.
+    pub tolerance_percent: f64,
+    /// Whether a map of the distances over the reference is made, too.
+    pub with_reference_map: bool,
+}
+
+/// What is farthest of one surface from the other.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Farthest {
+    /// Its distance in mm.
+    pub mm: f64,
+    /// No other point is farther than this, in mm: less than 0.5 % more, for certain.
+    pub at_most_mm: f64,
+    /// Where it is, in mm.
+    pub at_mm: [f32; 3],
+}
+
+/// What [`beside`] finds.
+#[derive(Debug)]
+pub struct Beside {
+    /// Distances pooled over both; the map is over the surface, and positive where it lies outside the reference.
+    pub comparison: Comparison,
+    /// The map over the reference, where it was asked for: positive where the *surface* lies outside.
+    pub over_reference: Option<Comparison>,
+    /// Of the reference from the surface, and of the surface from the reference.
+    pub farthest: [Farthest; 2],
+    /// The vessels of the reference, measured at the same places on both; [`BranchCalibre::smoothed`] is the reference
+    /// again.
+    ///
+    /// [`BranchCalibre::smoothed`]: lumen_vessel::certificate::BranchCalibre::smoothed
+    pub calibre: Result<Certificate, CalibreError>,
+}
+
+impl Beside {
+    /// The two-sided distance. Its maximum is the certain one.
+    pub fn deviation(&self) -> Deviation {
+        let [there, back] = self.farthest.map(|farthest| farthest.mm);
+        Deviation { max: self.comparison.deviation.max.max(there).max(back), ..self.comparison.deviation }
+    }
+}
+
+/// Compares `surface` with `reference`; `None` where one of them has no area.
+pub async fn beside(
+    reference: &Arc<TriMesh>,
+    surface: &Arc<TriMesh>,
+    how: Looking,
+    yielder: &Yielder,
+) -> Option<Beside> {
+    let comparing = Comparing { samples: how.samples, with_map: true, ..Comparing::default() };
+    let compared = compare(reference, surface, comparing.clone(), &yielder.part(0.0..0.3)).await;
+    let (comparison, indices) = (compared.comparison?, compared.indices);
+    // What the samples found on either side: from there it is not far to what is certain.
+    let places = comparison.deviation.max_at_mm.map(Vec3::from);
+    let [of_reference, of_surface] = &indices;
+    let there = farthest(reference, of_surface.as_deref()?, places[0], &yielder.part(0.3..0.4)).await?;
+    let back = farthest(surface, of_reference.as_deref()?, places[1], &yielder.part(0.4..0.5)).await?;
+    let over_reference = if how.with_reference_map {
+        let [of_reference, of_surface] = indices.clone();
+        let comparing = Comparing { indices: [of_surface, of_reference], ..comparing };
+        compare(surface, reference, comparing, &yielder.part(0.5..0.7)).await.comparison
+    } else {
+        None
+    };
+    let [of_reference, of_surface] = indices;
+    let subject = |mesh, index| {
+        let plain = Subject::new(mesh);
+        let index = if Arc::ptr_eq(&plain.mesh, mesh) { index } else { None };
+        Subject { index, ..plain }
+    };
+    let (reference, surface) = (subject(reference, of_reference), subject(surface, of_surface));
+    let all = [reference.clone(), reference, surface];
+    let calibre = Certificate::of(all, how.tolerance_percent, &yielder.part(0.7..1.0)).await;
+    Some(Beside { comparison, over_reference, farthest: [there, back], calibre })
+}
+
+/// What of `mesh` is farthest from another surface; `place` is where it is thought to be.
+async fn farthest(mesh: &TriMesh, from: &SurfaceIndex, place: Vec3, yielder: &Yielder) -> Option<Farthest> {
+    let known_mm = from.nearest(place).map_or(0.0, |found| f64::from(found.distance));
+    let Reach { farthest, at_most_mm } = reach(mesh, from, known_mm, yielder).await?;
+    Some(Farthest { mm: farthest.distance, at_most_mm, at_mm: farthest.point.to_array() })
+}
