@@ -23,8 +23,8 @@ use crate::io::{self, Axes, Imported, Output};
 use crate::language::grouped;
 use crate::mesh::arrays::{Association, Values};
 use crate::mesh::{Array, SurfaceIndex, TriMesh, Vec3};
-use crate::pipeline::beside::{Beside, Farthest, Looking, beside};
-use crate::pipeline::deviation::{Aligned, Comparison, Deviation, REPORT_SAMPLES, align};
+use crate::pipeline::beside::{Beside, Distances, Farthest, Looking, beside};
+use crate::pipeline::deviation::{Aligned, Deviation, REPORT_SAMPLES, align};
 use crate::pipeline::report::DISCLAIMER;
 use crate::pipeline::settings::Settings;
 use crate::sharing::Digest;
@@ -184,10 +184,10 @@ impl Compare {
         let found = found.context("one of the surfaces has no area: there is nothing to compare")?;
 
         if let Some(path) = &self.output {
-            written(path, &surface.imported, &found.comparison)?;
+            written(path, &surface.imported, &found.over_surface)?;
         }
-        if let (Some(path), Some(comparison)) = (&self.reference_output, &found.over_reference) {
-            written(path, &reference.imported, comparison)?;
+        if let (Some(path), Some(distances)) = (&self.reference_output, &found.over_reference) {
+            written(path, &reference.imported, distances)?;
         }
         if let Some(path) = &self.csv {
             let calibre = found.calibre.as_ref().map_err(ToString::to_string);
@@ -200,7 +200,7 @@ impl Compare {
             reference: side(&self.reference, &reference),
             surface: side(&self.file, &surface),
             moved,
-            deviation_mm: found.deviation(),
+            deviation_mm: found.deviation,
             reference_farthest: found.farthest[0],
             surface_farthest: found.farthest[1],
             calibre: calibre(&found, self.tolerance),
@@ -209,7 +209,8 @@ impl Compare {
             write_whole(path, serde_json::to_string_pretty(&told)?.as_bytes())?;
         }
         print(&told);
-        let size = Vec3::from(reference.imported.report.bounds_mm.max) - Vec3::from(reference.imported.report.bounds_mm.min);
+        let size =
+            Vec3::from(reference.imported.report.bounds_mm.max) - Vec3::from(reference.imported.report.bounds_mm.min);
         if self.align.is_none() && told.deviation_mm.mean > APART * f64::from(size.length()) {
             eprintln!(
                 "lumen: warning: the surfaces lie {:.1} mm apart on the mean: --align rigid moves the second onto the first",
@@ -277,7 +278,7 @@ impl Compare {
 const APART: f64 = 0.05;
 
 /// Does work in slices, and shows how far it is.
-fn worked<T: 'static, F: Future<Output = T> + 'static>(
+fn worked<T: 'static, F: Future<Output = T> + Send + 'static>(
     what: &'static str,
     work: impl FnOnce(Yielder) -> F,
 ) -> Result<T> {
@@ -293,10 +294,10 @@ fn worked<T: 'static, F: Future<Output = T> + 'static>(
 }
 
 /// Writes a surface with its distances.
-fn written(path: &Path, imported: &Imported, comparison: &Comparison) -> Result<()> {
+fn written(path: &Path, imported: &Imported, distances: &Distances) -> Result<()> {
     let Imported { mesh, arrays, report } = imported;
     let mut arrays = arrays.clone();
-    for (name, map) in [("deviation_mm", &comparison.map), ("signed_deviation_mm", &comparison.signed_map)] {
+    for (name, map) in [("deviation_mm", &distances.plain), ("signed_deviation_mm", &distances.signed)] {
         arrays.push(Array::new(name, Association::Point, 1, Values::from_floats(map)));
     }
     let output = Output { mesh, normals: None, arrays: &arrays, axes: report.axes };
@@ -373,7 +374,10 @@ fn print(told: &Told<'_>) {
         let [from, to] = [of(reference), of(surface)];
         [what.to_owned(), grouped(&from.to_string()), grouped(&to.to_string()), change(from as f64, to as f64)]
     };
-    rows.push_record(["file".to_owned(), reference.file.to_owned(), surface.file.to_owned(), String::new()]);
+    let name = |side: &Side<'_>| {
+        Path::new(side.file).file_name().map_or("-".into(), |name| name.to_string_lossy().into_owned())
+    };
+    rows.push_record(["file".to_owned(), name(reference), name(surface), String::new()]);
     rows.push_record(count("triangles", |side| side.triangles));
     rows.push_record(count("vertices", |side| side.vertices));
     let sizes = [
@@ -406,7 +410,16 @@ fn print(told: &Told<'_>) {
         return;
     }
     let mut rows = Builder::new();
-    rows.push_record(["branch", "length mm", "radius, reference mm", "surface", "largest %", "measured %", "verdict", "at"]);
+    rows.push_record([
+        "branch",
+        "length mm",
+        "radius, reference mm",
+        "surface",
+        "largest %",
+        "measured %",
+        "verdict",
+        "at",
+    ]);
     for branch in &calibre.branches {
         let radius = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.3}"));
         let place = |[x, y, z]: [f32; 3]| format!("({x:.1}, {y:.1}, {z:.1})");

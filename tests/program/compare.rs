@@ -1,6 +1,6 @@
 //! `lumen compare`: two surfaces of different programs and resolutions, whose distance and calibre are known.
 
-use lumen::io::{Axes, Format, Output, read, write, write_output};
+use lumen::io::{Axes, Format, ImportOptions, Output, read, write, write_output};
 use lumen::mesh::shapes::{icosphere, square, tube};
 use lumen::mesh::{TriMesh, Vec3};
 use serde_json::Value;
@@ -65,7 +65,9 @@ fn a_vessel_that_is_a_tenth_wider_in_another_triangulation_is_found_changed_by_t
     let mut seen = [0, 0];
     for line in lines {
         let fields: Vec<Option<f64>> = line.split(',').map(|field| field.parse().ok()).collect();
-        let (Some(z), Some(reference), Some(surface)) = (fields[z], fields[reference], fields[surface]) else { continue };
+        let (Some(z), Some(reference), Some(surface)) = (fields[z], fields[reference], fields[surface]) else {
+            continue;
+        };
         let expected = match z {
             10.0..20.0 | 40.0..50.0 => 1.0,
             27.0..33.0 => 1.21,
@@ -128,7 +130,7 @@ fn the_maps_are_written_over_both_with_their_sign() {
     report(&folder, [&small, &large], &["-o", &over_surface, "--reference-output", &over_reference]);
     // The surface lies 2 mm outside everywhere, but for the facets.
     for (file, count) in [(over_surface, large.positions.len()), (over_reference, small.positions.len())] {
-        let arrays = read(&std::fs::read(&file).unwrap(), &file).unwrap().arrays;
+        let arrays = read(&std::fs::read(&file).unwrap(), &file, &ImportOptions::default()).unwrap().arrays;
         for name in ["deviation_mm", "signed_deviation_mm"] {
             let array = arrays.iter().find(|array| array.name == name).unwrap_or_else(|| panic!("{name} in {file}"));
             assert_eq!(array.values.len(), count);

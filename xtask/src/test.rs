@@ -30,7 +30,7 @@ const ALL: &[&str] = &["--workspace", "--exclude=lumen-instructions", "--exclude
 const XTASK: &[&str] = &["--package=xtask"];
 
 /// What a build without window and scans says of what it lacks. All of ours is compiled anew for two sentences, hence not
-/// optimised.
+/// optimised, and with `--long` alone: `.ci/run` lets clippy look at that build.
 const BARE: &[&str] = &[
     "--package=lumen",
     "--no-default-features",
@@ -138,7 +138,11 @@ pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
 fn native(extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     tools::vulkan()?;
     let display = tools::display()?;
-    let runs: &[&[&str]] = if extent == Extent::Quick { &QUICK.0 } else { &[ALL, XTASK, BARE] };
+    let runs: &[&[&str]] = match extent {
+        Extent::Quick => &QUICK.0,
+        Extent::Ordinary => &[ALL, XTASK],
+        Extent::Long => &[ALL, XTASK, BARE],
+    };
     estimate.begin("compile the native tests");
     let (mut counts, mut ended_well) = (Counts::default(), true);
     step("Run the native tests", || {

@@ -335,8 +335,8 @@ mod tests {
 
     use super::*;
     use crate::TriMesh;
-    use crate::task::at_once;
     use crate::shapes::{icosphere, sagitta, square};
+    use crate::task::at_once;
 
     /// The first triangle of `a` that is beyond `bound` of `b`, and the pieces that it took to say so.
     fn beyond(a: &TriMesh, b: &TriMesh, bound: f64) -> (Option<FarPoint>, usize) {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::deviation::{Comparing, Comparison, Deviation, compare};
+use crate::deviation::{Comparing, Deviation, compare};
 use lumen_mesh::task::Yielder;
 use lumen_mesh::{Reach, SurfaceIndex, TriMesh, Vec3, reach};
 use lumen_vessel::Subject;
@@ -32,13 +32,24 @@ pub struct Farthest {
     pub at_mm: [f32; 3],
 }
 
+/// Mean distances around each vertex of one of the surfaces from the other, in mm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Distances {
+    /// Without a sign.
+    pub plain: Vec<f32>,
+    /// Positive where the surface lies outside the reference, over either of them.
+    pub signed: Vec<f32>,
+}
+
 /// What [`beside`] finds.
 #[derive(Debug)]
 pub struct Beside {
-    /// Distances pooled over both; the map is over the surface, and positive where it lies outside the reference.
-    pub comparison: Comparison,
-    /// The map over the reference, where it was asked for: positive where the *surface* lies outside.
-    pub over_reference: Option<Comparison>,
+    /// Mean, RMS, 95th percentile pooled over samples of both; the largest is that of `farthest`.
+    pub deviation: Deviation,
+    /// Over the vertices of the surface.
+    pub over_surface: Distances,
+    /// Over those of the reference, where that was asked for.
+    pub over_reference: Option<Distances>,
     /// Of the reference from the surface, and of the surface from the reference.
     pub farthest: [Farthest; 2],
     /// The vessels of the reference, measured at the same places on both; [`BranchCalibre::smoothed`] is the reference
@@ -46,14 +57,6 @@ pub struct Beside {
     ///
     /// [`BranchCalibre::smoothed`]: lumen_vessel::certificate::BranchCalibre::smoothed
     pub calibre: Result<Certificate, CalibreError>,
-}
-
-impl Beside {
-    /// The two-sided distance. Its maximum is the certain one.
-    pub fn deviation(&self) -> Deviation {
-        let [there, back] = self.farthest.map(|farthest| farthest.mm);
-        Deviation { max: self.comparison.deviation.max.max(there).max(back), ..self.comparison.deviation }
-    }
 }
 
 /// Compares `surface` with `reference`; `None` where one of them has no area.
@@ -74,7 +77,8 @@ pub async fn beside(
     let over_reference = if how.with_reference_map {
         let [of_reference, of_surface] = indices.clone();
         let comparing = Comparing { indices: [of_surface, of_reference], ..comparing };
-        compare(surface, reference, comparing, &yielder.part(0.5..0.7)).await.comparison
+        let found = compare(surface, reference, comparing, &yielder.part(0.5..0.7)).await.comparison?;
+        Some(Distances { plain: found.map, signed: found.signed_map.into_iter().map(|mm| 0.0 - mm).collect() })
     } else {
         None
     };
@@ -87,12 +91,15 @@ pub async fn beside(
     let (reference, surface) = (subject(reference, of_reference), subject(surface, of_surface));
     let all = [reference.clone(), reference, surface];
     let calibre = Certificate::of(all, how.tolerance_percent, &yielder.part(0.7..1.0)).await;
-    Some(Beside { comparison, over_reference, farthest: [there, back], calibre })
+    let deviation = Deviation { max: there.mm.max(back.mm), ..comparison.deviation };
+    let over_surface = Distances { plain: comparison.map, signed: comparison.signed_map };
+    Some(Beside { deviation, over_surface, over_reference, farthest: [there, back], calibre })
 }
 
 /// What of `mesh` is farthest from another surface; `place` is where it is thought to be.
 async fn farthest(mesh: &TriMesh, from: &SurfaceIndex, place: Vec3, yielder: &Yielder) -> Option<Farthest> {
     let known_mm = from.nearest(place).map_or(0.0, |found| f64::from(found.distance));
     let Reach { farthest, at_most_mm } = reach(mesh, from, known_mm, yielder).await?;
-    Some(Farthest { mm: farthest.distance, at_most_mm, at_mm: farthest.point.to_array() })
+    let (mm, at) = if known_mm > farthest.distance { (known_mm, place) } else { (farthest.distance, farthest.point) };
+    Some(Farthest { mm, at_most_mm: at_most_mm.max(mm), at_mm: at.to_array() })
 }

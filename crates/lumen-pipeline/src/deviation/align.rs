@@ -18,9 +18,16 @@ const POINTS: [usize; 2] = [500, 5_000];
 /// Steps at most of a beginning, and of the best.
 const STEPS: [usize; 2] = [25, 200];
 
-/// The part of the pairs that the residual is of, and a pair that is farther apart than this many times their median counts
-/// for nothing.
-const (PART, FAR): (f64, f64) = (0.8, 3.0);
+/// The part of the pairs that the residual is of.
+const PART: f64 = 0.8;
+
+/// A pair that is farther apart than this many times their median counts for nothing.
+const FAR: f64 = 3.0;
+
+/// A beginning goes on in place of one before it where its residual is less than this part of that one's, and that one's
+/// not less than this part of the size.
+const CLEARLY: f64 = 0.9;
+const NEGLIGIBLE: f64 = 1e-5;
 
 /// A step that moves nothing farther than this part of the size is the last.
 const STILL: f64 = 1e-7;
@@ -89,16 +96,16 @@ pub async fn align(mesh: &TriMesh, other: &TriMesh, index: &SurfaceIndex, yielde
     let onto = Onto { mesh: other, index };
     let stay = Rigid { rotation: DQuat::IDENTITY, shift_mm: DVec3::ZERO };
     let turned = Rigid { rotation: half_turn, shift_mm: DVec3::ZERO };
-    let beginnings =
-        [stay, Rigid::about(DQuat::IDENTITY, from, to), turned, Rigid::about(half_turn, from, to)];
+    let beginnings = [stay, Rigid::about(DQuat::IDENTITY, from, to), turned, Rigid::about(half_turn, from, to)];
 
     let before_mm = onto.pairs(&many, stay)?.residual();
+    let negligible = NEGLIGIBLE * many.iter().map(|p| p.distance(from)).fold(0.0, f64::max);
     let mut best: Option<(f64, Rigid)> = None;
     for (i, beginning) in beginnings.into_iter().enumerate() {
         let part = yielder.part(0.1 * i as f32..0.1 * (i + 1) as f32);
         let found = onto.descended(&few, beginning, STEPS[0], &part).await?;
-        // Of equals the first.
-        if best.is_none_or(|(least, _)| found.0 < least) {
+        // Of those that fit about as well the first: it moves what has more than one way to fit the least.
+        if best.is_none_or(|(least, _)| found.0 < CLEARLY * least && least > negligible) {
             best = Some(found);
         }
     }
