@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use tabled::builder::Builder;
@@ -189,11 +189,6 @@ impl Compare {
         if let (Some(path), Some(distances)) = (&self.reference_output, &found.over_reference) {
             written(path, &reference.imported, distances)?;
         }
-        if let Some(path) = &self.csv {
-            let calibre = found.calibre.as_ref().map_err(ToString::to_string);
-            let calibre = calibre.map_err(anyhow::Error::msg).context("there are no vessels to make a table of")?;
-            write_whole(path, table(calibre).as_bytes())?;
-        }
         let told = Told {
             disclaimer: DISCLAIMER,
             version: env!("CARGO_PKG_VERSION"),
@@ -218,7 +213,11 @@ impl Compare {
             );
         }
         println!("{DISCLAIMER}");
-        Ok(())
+        match (&self.csv, &found.calibre) {
+            (Some(path), Ok(calibre)) => write_whole(path, table(calibre).as_bytes()),
+            (Some(path), Err(refused)) => bail!("{} is not written, there are no vessels: {refused}", path.display()),
+            (None, _) => Ok(()),
+        }
     }
 
     /// Puts the surface where it stands in the reference's coordinates: files far from the origin were moved when they were
@@ -372,7 +371,7 @@ fn print(told: &Told<'_>) {
     rows.push_record(["", "reference", "surface", "change %"]);
     let count = |what: &str, of: fn(&Side<'_>) -> usize| {
         let [from, to] = [of(reference), of(surface)];
-        [what.to_owned(), grouped(&from.to_string()), grouped(&to.to_string()), change(from as f64, to as f64)]
+        [what.to_owned(), grouped(from), grouped(to), change(from as f64, to as f64)]
     };
     let name = |side: &Side<'_>| {
         Path::new(side.file).file_name().map_or("-".into(), |name| name.to_string_lossy().into_owned())
@@ -385,7 +384,7 @@ fn print(told: &Told<'_>) {
         ("volume mm3", reference.volume_mm3, surface.volume_mm3),
     ];
     for (what, from, to) in sizes {
-        let shown = |value: Option<f64>| value.map_or("-".to_owned(), |value| grouped(&format!("{value:.1}")));
+        let shown = |value: Option<f64>| value.map_or("-".to_owned(), |value| grouped(format!("{value:.1}")));
         let change = from.zip(to).map_or("-".to_owned(), |(from, to)| change(from, to));
         rows.push_record([what.to_owned(), shown(from), shown(to), change]);
     }

@@ -19,7 +19,7 @@ use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::verdict::Verdict;
-use crate::report::{Document, Heading, Picture, ReportFormat, Subject, today};
+use crate::report::{Carried, Document, Heading, Picture, ReportFormat, Subject, today};
 
 /// Writes a page for the record.
 #[derive(Debug, Args)]
@@ -46,6 +46,9 @@ pub struct WriteReport {
     /// Leave the pictures out
     #[arg(long)]
     no_pictures: bool,
+    /// Put the surface into the page, to be turned there: shaded and as wireframe, reduced and before (.html)
+    #[arg(long)]
+    surface: bool,
     #[command(flatten)]
     settings: SettingsOptions,
 }
@@ -56,6 +59,11 @@ impl WriteReport {
         let name = self.output.to_string_lossy();
         let format =
             ReportFormat::from_name(&name).ok_or_else(|| misuse(format!("{name} does not end in .pdf or .html")))?;
+        let format = match (format, self.surface) {
+            (ReportFormat::Html, true) => ReportFormat::HtmlWithSurface,
+            (_, true) => return Err(misuse("--surface is of a web page: let the output end in .html")),
+            (format, false) => format,
+        };
         let inputs = [Path::new(&self.file)].into_iter().chain(self.settings.file());
         places::check(inputs, [("the report".to_owned(), &*self.output)])?;
         let asked = self.settings.asked()?;
@@ -78,7 +86,10 @@ impl WriteReport {
         };
         let subject =
             Subject { heading: &heading, digest, import: &import, report: &report, verdict: &verdict, measures: &[] };
-        let document = Document::new(&subject, drawn);
+        let mut document = Document::new(&subject, drawn);
+        if self.surface {
+            document.surface = Carried::of(&pipeline, import.axes);
+        }
         write_whole(&self.output, &format.write(&document))?;
         row("verdict", verdict.in_short(|words| words.to_string()));
         row("pictures", document.pictures.len());

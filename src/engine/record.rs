@@ -5,7 +5,7 @@ use crate::io::{Axes, ImportReport};
 use crate::pipeline::report::Report;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::verdict::Verdict;
-use crate::report::{Document, Heading, Picture, PictureError, Pixels, ReportFormat, Strip, Subject};
+use crate::report::{Carried, Document, Heading, Picture, PictureError, Pixels, ReportFormat, Strip, Subject};
 use crate::say;
 use crate::sharing::Digest;
 use crate::sharing::measures::Measure;
@@ -52,7 +52,11 @@ pub(super) fn report(name: &str, pipeline: &Pipeline, origin: &Origin, asked: As
         verdict: &verdict,
         measures: &asked.measures,
     };
-    Ok(asked.format.write(&Document::new(&subject, pictures)))
+    let mut document = Document::new(&subject, pictures);
+    if asked.format == ReportFormat::HtmlWithSurface {
+        document.surface = Carried::of(pipeline, asked.axes);
+    }
+    Ok(asked.format.write(&document))
 }
 
 /// How long a frame of several is seen, in ms.

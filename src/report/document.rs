@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::picture::Picture;
 use super::plot::{Plot, radius, response};
+use super::viewer::Carried;
 use super::words::{others, said};
 use crate::io::{Axes, ImportReport, ThresholdReport};
 use crate::language::{decimal, exact, grouped, inner, signed, tell};
@@ -105,6 +106,8 @@ pub struct Document {
     pub stretches: Table,
     /// What a user has measured.
     pub measures: Table,
+    /// The surface itself, for a web page.
+    pub surface: Option<Carried>,
     /// The surface, with a caption each; or none.
     pub pictures: Vec<Picture>,
     /// The filter, and the radii of some vessels.
@@ -144,6 +147,7 @@ impl Document {
             vessels: vessels(branches),
             stretches: stretches(branches),
             measures: measures(subject.measures),
+            surface: None,
             pictures,
             plots,
         }

@@ -1,5 +1,6 @@
-//! A report as one HTML file: style inside, pictures as `data:` addresses, plots as SVG; no script, and nothing from
-//! anywhere else, which its own Content-Security-Policy says too. It is light or dark as the reader is, and prints on A4.
+//! A report as one HTML file: style inside, pictures as `data:` addresses, plots as SVG; no script but the one that draws the
+//! surface where that is in the page, and nothing from anywhere else, which its own Content-Security-Policy says too. It is
+//! light or dark as the reader is, and prints on A4.
 
 use std::fmt::Write as _;
 
@@ -8,6 +9,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use super::document::{Document, Row, Table};
 use super::plot::{Ink, LETTERS, Mark, Plot, WIDE};
+use super::viewer::{self, Carried};
 use crate::language::spoken;
 use crate::say;
 
@@ -24,18 +26,24 @@ table{border-collapse:collapse;width:100%;font-size:13px}td,th{text-align:left;p
 border-bottom:1px solid var(--line)}th{font-weight:600}.facts td:first-child{color:var(--weak)}.about td:first-child{width:8em}.facts td+td{overflow-wrap:anywhere;white-space:pre-line}\
 .pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(180px,1fr));gap:8px}figure{margin:0}img,svg{width:100%;height:auto}\
 figcaption{font-size:12px;color:var(--weak)}.wide{overflow-x:auto}\
-@media print{@page{size:A4;margin:12mm}body{margin:0;max-width:none;font-size:11px}table{font-size:10px}\
+#viewer p{display:flex;flex-wrap:wrap;gap:4px 20px;align-items:center;margin:8px 0}\
+#viewer canvas{display:block;width:100%;height:min(56vh,460px);touch-action:none;border:1px solid var(--line);border-radius:6px;box-sizing:border-box}\
+#viewer canvas:focus-visible{outline:2px solid var(--accent);outline-offset:1px}#viewer button{margin-left:auto;font:inherit}\
+.sides{display:grid;grid-template-columns:1fr 1fr;text-align:center}\
+@media print{#viewer{display:none}@page{size:A4;margin:12mm}body{margin:0;max-width:none;font-size:11px}table{font-size:10px}\
 h2,figure,tr{break-inside:avoid}.pictures{grid-template-columns:repeat(4,1fr)}}";
 
 /// The report as a page.
 pub(super) fn write(document: &Document) -> String {
     let mut page = String::new();
     let (title, language) = (escaped(&document.title), spoken().tag());
+    let scripts =
+        document.surface.as_ref().map_or_else(String::new, |_| format!(";script-src {}", viewer::script_source()));
     let _ = write!(
         page,
         "<!doctype html>\n<html lang=\"{language}\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';img-src data:;style-src 'unsafe-inline'\">\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';img-src data:;style-src 'unsafe-inline'{scripts}\">\
          <title>{title}</title><style>{STYLE}</style></head><body>\n<h1>{title}</h1><p class=\"weak\">{}</p>\n<table class=\"facts about\">",
         escaped(&document.line)
     );
@@ -51,6 +59,9 @@ pub(super) fn write(document: &Document) -> String {
         let _ = write!(page, "<p>{}</p>", escaped(finding));
     }
     page += "</section>\n";
+    if let Some(surface) = &document.surface {
+        self::surface(&mut page, surface);
+    }
     if !document.pictures.is_empty() {
         page += "<div class=\"pictures\">";
         for picture in &document.pictures {
@@ -78,8 +89,36 @@ pub(super) fn write(document: &Document) -> String {
     table(&mut page, &say!("report-by-hand"), &document.measures);
     table(&mut page, &say!("report-stretches"), &document.stretches);
     table(&mut page, &say!("vessels-heading"), &document.vessels);
-    let _ = write!(page, "<p class=\"weak\">{}</p>\n</body></html>\n", escaped(&document.line));
-    page
+    let _ = writeln!(page, "<p class=\"weak\">{}</p>", escaped(&document.line));
+    if let Some(surface) = &document.surface {
+        let (data, script) = (surface.data(), viewer::SCRIPT);
+        let _ = write!(
+            page,
+            "<script type=\"application/json\" id=\"surface\">{data}</script>\n<script>{script}</script>\n"
+        );
+    }
+    page + "</body></html>\n"
+}
+
+/// What the script draws into, and its controls; hidden until it does.
+fn surface(page: &mut String, surface: &Carried) {
+    let [shaded, wireframe, help, save] =
+        [say!("views-shaded-title"), say!("views-wireframe-title"), say!("report-view-help"), say!("report-view-save")]
+            .map(|text| escaped(&text));
+    *page += "<section id=\"viewer\" hidden><p>";
+    for (i, name) in surface.names().iter().enumerate() {
+        let checked = if i == 0 { " checked" } else { "" };
+        let _ = write!(
+            page,
+            "<label><input type=\"radio\" name=\"level\" value=\"{i}\"{checked}> {}</label>",
+            escaped(name)
+        );
+    }
+    let _ = writeln!(
+        page,
+        "<button type=\"button\">{save}</button></p><canvas tabindex=\"0\" role=\"img\" aria-label=\"{shaded}, {wireframe}. {help}\"></canvas>\
+         <div class=\"sides weak\"><span>{shaded}</span><span>{wireframe}</span></div><p class=\"weak\">{help}</p></section>"
+    );
 }
 
 /// Text that is nothing but text, in elements and in attributes; its lines stay lines.
@@ -209,6 +248,7 @@ mod tests {
             vessels: Table::default(),
             stretches: Table::default(),
             measures: Table::default(),
+            surface: None,
             pictures: Vec::new(),
             plots: Vec::new(),
         };

@@ -1,7 +1,7 @@
 //! A page for the record: what a surface was, what was made of it and what is to be said of that, as PDF and as a web page
 //! that needs nothing else.
 //!
-//! [`Document`] is what stands in it; `html` and `pdf` write that. Names are not trusted: a file may call an array anything.
+//! [`Document`] is what stands in it; `html` and `pdf` write that, and `viewer` puts the surface into the web page. Names are not trusted: a file may call an array anything.
 
 mod document;
 mod html;
@@ -11,6 +11,7 @@ mod picture;
 mod plot;
 #[cfg(not(target_arch = "wasm32"))]
 mod today;
+mod viewer;
 pub mod words;
 
 use serde::{Deserialize, Serialize};
@@ -25,6 +26,7 @@ pub use picture::{Picture, PictureError, Pixels, Strip};
 pub use plot::{Axis, Curve, Ink, Panel, Plot, sweep_plot};
 #[cfg(not(target_arch = "wasm32"))]
 pub use today::today;
+pub use viewer::Carried;
 
 /// What a report is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -33,6 +35,8 @@ pub enum ReportFormat {
     Pdf,
     /// One HTML file.
     Html,
+    /// The same with the surface in it, to be turned.
+    HtmlWithSurface,
 }
 
 impl ReportFormat {
@@ -40,7 +44,7 @@ impl ReportFormat {
     pub fn extension(self) -> &'static str {
         match self {
             Self::Pdf => "pdf",
-            Self::Html => "html",
+            Self::Html | Self::HtmlWithSurface => "html",
         }
     }
 
@@ -58,7 +62,7 @@ impl ReportFormat {
     pub fn write(self, document: &Document) -> Vec<u8> {
         match self {
             Self::Pdf => pdf::write(document),
-            Self::Html => html::write(document).into_bytes(),
+            Self::Html | Self::HtmlWithSurface => html::write(document).into_bytes(),
         }
     }
 }

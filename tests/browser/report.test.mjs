@@ -1,11 +1,14 @@
 // The page for the record, saved in the browser and read by others.
 
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { inflateSync } from "node:zlib";
 import { settled } from "./app.mjs";
-import { COARSE, launch, openApp, press, twin } from "./browser.mjs";
+import { COARSE, launch, openApp, picture, press, twin } from "./browser.mjs";
+import { pathToFileURL } from "node:url";
 
 let browser;
 before(async () => (browser = await launch()));
@@ -62,4 +65,92 @@ test("a report is saved as PDF, whose text can be searched, and as a page that n
   const drawn = await other.locator("img").evaluateAll((images) => images.every((image) => image.naturalWidth > 0));
   assert(drawn, "the pictures are pictures");
   assert.deepEqual(wrong, []);
+});
+
+/** How many points of two pictures differ, in their left and in their right half. */
+function differing(one, other) {
+  assert.deepEqual([one.width, one.height], [other.width, other.height]);
+  const counts = [0, 0];
+  for (let i = 0; i < one.data.length; i += 4) {
+    if ([0, 1, 2].some((k) => Math.abs(one.data[i + k] - other.data[i + k]) > 24)) counts[Number((i / 4) % one.width >= one.width / 2)]++;
+  }
+  return counts;
+}
+
+test("the surface in a saved page is turned, zoomed and saved there, on a desk and on a telephone, and asks for nothing", async (t) => {
+  const { page } = await openApp(t, browser, { context: COARSE });
+  const all = await settled(page);
+  await twin(page, "button", "Show vessels").and(page.locator(":not([aria-disabled=true])")).waitFor();
+  const html = await saved(page, "Save as web page with the surface...");
+  assert(html.bytes.length < 5e6, `${html.bytes.length} bytes`);
+  const folder = await mkdtemp(join(tmpdir(), "lumen-"));
+  t.after(() => rm(folder, { recursive: true }));
+  const file = join(folder, html.name);
+  await writeFile(file, html.bytes);
+
+  for (const options of [{ viewport: { width: 1280, height: 800 } }, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 }]) {
+    const context = await browser.newContext({ ...options, colorScheme: options.hasTouch ? "dark" : "light" });
+    t.after(() => context.close());
+    const other = await context.newPage();
+    const [wrong, asked] = [[], []];
+    other.on("console", (message) => message.type() === "error" && wrong.push(message.text()));
+    other.on("pageerror", (error) => wrong.push(String(error)));
+    other.on("request", (request) => asked.push(request.url()));
+    await other.goto(pathToFileURL(file).href);
+    const canvas = other.locator("#viewer canvas");
+    await canvas.scrollIntoViewIfNeeded();
+    const seen = () => other.evaluate(() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next)))).then(() => picture(other, canvas));
+    if (process.env.LUMEN_SHOTS) await other.screenshot({ path: join(process.env.LUMEN_SHOTS, `viewer-${options.viewport.width}.png`) });
+    const first = await seen();
+    const plain = { ...first, data: Uint8Array.from(first.data, (_, i) => first.data[(8 * first.width + 8) * 4 + (i % 4)]) };
+    const [shaded, lines] = differing(first, plain);
+    t.diagnostic(`${options.viewport.width} points wide: ${shaded} pixels shaded, ${lines} of lines, of ${first.width} x ${first.height}`);
+    assert(shaded > 0.01 * first.width * first.height && lines > 0.005 * first.width * first.height, "both are drawn");
+
+    const box = await canvas.boundingBox();
+    const [x, y] = [box.x + box.width / 4, box.y + box.height / 2];
+    if (options.hasTouch) {
+      const touch = await context.newCDPSession(other);
+      const at = (type, ...points) => touch.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+      await at("touchStart", [x, y]);
+      await at("touchMove", [x + 40, y]);
+      await at("touchEnd");
+      const turned = await seen();
+      assert(differing(first, turned).every((count) => count > 500), "a finger turns both");
+      await at("touchStart", [x - 20, y], [x + 20, y]);
+      await at("touchMove", [x - 60, y], [x + 60, y]);
+      await at("touchEnd");
+      assert(differing(turned, await seen()).every((count) => count > 500), "two fingers zoom both");
+    } else {
+      await other.mouse.move(x, y);
+      await other.mouse.down();
+      await other.mouse.move(x + 80, y + 20, { steps: 4 });
+      await other.mouse.up();
+      const turned = await seen();
+      assert(differing(first, turned).every((count) => count > 500), "both turn");
+      await other.mouse.wheel(0, -300);
+      assert(differing(turned, await seen()).every((count) => count > 500), "both are zoomed");
+      await canvas.focus();
+      await other.keyboard.press("0");
+      assert.deepEqual(differing(first, await seen()), [0, 0], "0 shows the whole again");
+      await other.keyboard.press("ArrowLeft");
+      assert(differing(first, await seen()).every((count) => count > 500), "keys turn");
+      await other.keyboard.press("0");
+    }
+    const before = await seen();
+    await other.getByRole("radio", { name: /^Before/ }).check();
+    const [, denser] = differing(before, await seen());
+    assert(denser > 500, "the wireframe before is another");
+
+    // What is saved has the triangles that the page names.
+    const named = await other.getByRole("radio").evaluateAll((radios) => radios.map((radio) => Number(radio.parentElement.textContent.replace(/\D/g, ""))));
+    assert(all.some((text) => text.includes(`${named[0].toLocaleString("en")} of`)), `${named}`);
+    const download = other.waitForEvent("download");
+    await other.getByRole("button", { name: "Save as GLB" }).click();
+    const glb = await readFile(await (await download).path());
+    const description = JSON.parse(glb.subarray(20, 20 + glb.readUInt32LE(12)).toString());
+    assert.deepEqual([glb.readUInt32LE(0), glb.readUInt32LE(8), description.accessors[1].count], [0x46546c67, glb.length, 3 * named[1]]);
+    assert.deepEqual(wrong, []);
+    assert.deepEqual(asked.filter((url) => !/^(data|blob):/.test(url)), [pathToFileURL(file).href]);
+  }
 });

@@ -1,5 +1,7 @@
 //! `lumen report`: what others read of the page.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 
 use super::program::{Folder, json, lumen, succeed};
@@ -101,6 +103,62 @@ fn names_are_text_in_the_web_page_and_nothing_comes_from_elsewhere() {
     assert!(page.contains("<td>Größe: 血\n\n&lt;i&gt;&quot;so&quot;&lt;/i&gt;</td>") && !page.contains("<i>"));
     let text = flat(&text_of(&pdf).join(" "));
     assert!(text.contains("Case <b>12</b> Comment Größe: ? <i>\"so\"</i>"), "{text}");
+}
+
+#[test]
+fn the_surface_in_the_page_is_the_one_that_is_written_as_a_file() {
+    let folder = Folder::new("report-surface");
+    let (file, out, light) = (folder.file("a.obj"), folder.file("a.html"), folder.file("light.ply"));
+    std::fs::write(&file, tube(0.5, 1.0)).unwrap();
+    succeed(&["report", &file, "-o", &out, "--no-pictures", "--reduction", "60", "--surface"]);
+    succeed(&["optimise", &file, "-o", &light, "--reduction", "60"]);
+    let read = |path: &str| lumen::io::read(&std::fs::read(path).unwrap(), path, &Default::default()).unwrap().mesh;
+    let (light, whole) = (read(&light), read(&file));
+    let page = std::fs::read_to_string(&out).unwrap();
+    for foreign in ["http:", "https:", "@import", "<link", "<iframe", "<img"] {
+        assert!(!page.to_lowercase().contains(foreign), "{foreign}");
+    }
+    assert_eq!(page.matches("script-src 'sha256-").count(), 1);
+    let data = page.split("id=\"surface\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let data: Value = serde_json::from_str(data).unwrap();
+    let bytes = |level: &Value, what: &str| STANDARD.decode(level[what].as_str().unwrap()).unwrap();
+    let level = &data["levels"][0];
+    let numbers = |what: &str| -> Vec<f64> {
+        level[what].as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+    };
+    let (low, size) = (numbers("low"), numbers("size"));
+    let grid = bytes(level, "positions");
+    let places: Vec<[f64; 3]> = grid
+        .chunks_exact(6)
+        .map(|place| {
+            std::array::from_fn(|k| {
+                low[k] + size[k] * f64::from(u16::from_le_bytes([place[2 * k], place[2 * k + 1]])) / 65_535.0
+            })
+        })
+        .collect();
+    let corners: Vec<usize> =
+        bytes(level, "triangles").chunks_exact(2).map(|v| u16::from_le_bytes([v[0], v[1]]).into()).collect();
+    assert_eq!((corners.len() / 3, level["wide"].as_bool()), (light.triangles.len(), Some(false)));
+    // The same triangles, in whatever order, to half a step along each axis.
+    let sorted = |mut all: Vec<[i64; 9]>| {
+        all.sort_unstable();
+        all
+    };
+    let rounded = |corners: [[f64; 3]; 3]| {
+        let first = (0..3).min_by_key(|&i| corners[i].map(|x| (x * 50.0).round() as i64)).unwrap();
+        std::array::from_fn(|i| (corners[(first + i / 3) % 3][i % 3] * 50.0).round() as i64)
+    };
+    let carried =
+        sorted(corners.chunks_exact(3).map(|t| rounded([places[t[0]], places[t[1]], places[t[2]]])).collect());
+    let written = sorted(
+        (0..light.triangles.len()).map(|t| rounded(light.corners(t).map(|p| p.to_array().map(f64::from)))).collect(),
+    );
+    let same = carried.iter().filter(|t| written.binary_search(t).is_ok()).count();
+    // A coordinate in a thousand lies so near to the middle between two hundredths that half a step of 0.5 um rounds it up.
+    assert!(same as f64 > 0.97 * written.len() as f64, "{same} of {}", written.len());
+    assert_eq!(bytes(&data["levels"][1], "triangles").len(), 6 * whole.triangles.len());
+    // A PDF cannot have it.
+    assert_eq!(lumen(&["report", &file, "-o", &folder.file("a.pdf"), "--surface"]).status.code(), Some(2));
 }
 
 #[test]

@@ -66,6 +66,7 @@ pub(super) fn sheet(ui: &mut Ui, said: &mut Said, mut chosen: Chosen) -> Option<
         for (text, format, help) in [
             (say!("record-report-pdf"), ReportFormat::Pdf, say!("record-report-pdf-help")),
             (say!("record-report-html"), ReportFormat::Html, say!("record-report-html-help")),
+            (say!("record-report-surface"), ReportFormat::HtmlWithSurface, say!("record-report-surface-help")),
         ] {
             if ui.button(text).on_hover_text(help).clicked() {
                 asked = Some(Action::Report(format));

@@ -14,6 +14,10 @@ report-settings = Settings
 report-numbers = Numbers
 report-by-hand = Measured by hand
 report-stretches = Narrower and wider than on either side
+report-view-reduced = Reduced: { $count } triangles
+report-view-before = Before: { $count } triangles
+report-view-help = Drag to turn, wheel or two fingers to zoom, Shift and drag to move, double-click for the whole; or arrow keys, + and -, 0.
+report-view-save = Save as GLB
 
 ## The file: the names of rows, and what stands in them
 
