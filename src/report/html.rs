@@ -29,7 +29,8 @@ figcaption{font-size:12px;color:var(--weak)}.wide{overflow-x:auto}\
 #viewer p{display:flex;flex-wrap:wrap;gap:4px 20px;align-items:center;margin:8px 0}\
 #viewer canvas{display:block;width:100%;height:min(56vh,460px);touch-action:none;border:1px solid var(--line);border-radius:6px;box-sizing:border-box}\
 #viewer canvas:focus-visible{outline:2px solid var(--accent);outline-offset:1px}#viewer button{margin-left:auto;font:inherit}\
-.sides{display:grid;grid-template-columns:1fr 1fr;text-align:center}\
+.stage{position:relative}.stage span{position:absolute;top:8px;left:12px;color:var(--weak);pointer-events:none}.stage span+span{left:calc(50% + 12px)}\
+@media(max-width:600px){#viewer canvas{height:min(64vh,560px)}.stage span+span{left:12px;top:calc(50% + 8px)}}\
 @media print{#viewer{display:none}@page{size:A4;margin:12mm}body{margin:0;max-width:none;font-size:11px}table{font-size:10px}\
 h2,figure,tr{break-inside:avoid}.pictures{grid-template-columns:repeat(4,1fr)}}";
 
@@ -116,8 +117,8 @@ fn surface(page: &mut String, surface: &Carried) {
     }
     let _ = writeln!(
         page,
-        "<button type=\"button\">{save}</button></p><canvas tabindex=\"0\" role=\"img\" aria-label=\"{shaded}, {wireframe}. {help}\"></canvas>\
-         <div class=\"sides weak\"><span>{shaded}</span><span>{wireframe}</span></div><p class=\"weak\">{help}</p></section>"
+        "<button type=\"button\">{save}</button></p><div class=\"stage\"><canvas tabindex=\"0\" role=\"img\" aria-label=\"{shaded}, {wireframe}. {help}\"></canvas>\
+         <span>{shaded}</span><span>{wireframe}</span></div><p class=\"weak\">{help}</p></section>"
     );
 }
 

@@ -52,7 +52,7 @@
     uniform mat4 view, projection;
     uniform float back;
     in vec3 place, normal;
-    out vec3 seen, turned;
+    centroid out vec3 seen, turned;
     void main() {
       seen = (view * vec4(place, 1)).xyz;
       turned = mat3(view) * normal;
@@ -63,14 +63,19 @@
     precision highp float;
     uniform int look;
     uniform vec3 ground, line;
-    in vec3 seen, turned;
+    centroid in vec3 seen, turned;
     out vec4 colour;
     void main() {
-      if (look != ${SHADED}) {
-        colour = vec4(look == ${GROUND} ? ground : line, 1);
+      if (look == ${GROUND}) {
+        colour = vec4(ground, 1);
         return;
       }
       vec3 n = normalize(turned) * (gl_FrontFacing ? 1. : -1.);
+      if (look == ${LINES}) {
+        // Softer where the surface faces the eye, so that many lines still show its form.
+        colour = vec4(mix(line, ground, .5 * abs(n.z)), 1);
+        return;
+      }
       vec3 outside = vec3(.604, .246, .178), inside = vec3(.254, .04, .034), rim = vec3(.195, .035, .03);
       vec3 own = gl_FrontFacing ? mix(outside, rim, .8 * pow(1. - max(dot(n, normalize(-seen)), 0.), 3.)) : inside;
       vec3 light = mix(vec3(.15, .13, .12), vec3(.42, .44, .48), .5 * n.y + .5) + vec3(.82, .8, .77) * max(dot(n, vec3(-.42, .56, .71)), 0.);
@@ -123,10 +128,21 @@
   // The camera: turned about the middle of the box, which it sees from the patient's front.
   const { low, size } = levels[levels.length - 1];
   const middle = low.map((least, k) => least + size[k] / 2);
-  const radius = Math.hypot(...size) / 2 || 1;
+  const radius = farthest(levels[levels.length - 1].place) || 1;
   const WHOLE = { across: carried.across, up: 0, distance: 1, aside: [0, 0] };
+  // In radii of what is seen, and how large that is: all of it is in the picture.
+  const [DISTANCE, SCALE] = [3.2, 3];
+  const tall = matchMedia("(max-width:600px)");
   let camera = { ...WHOLE, aside: [0, 0] };
   let shown = 0;
+
+  function farthest(place) {
+    let squared = 0;
+    for (let i = 0; i < place.length; i += 3) {
+      squared = Math.max(squared, (place[i] - middle[0]) ** 2 + (place[i + 1] - middle[1]) ** 2 + (place[i + 2] - middle[2]) ** 2);
+    }
+    return Math.sqrt(squared);
+  }
 
   /** By columns. */
   function view() {
@@ -140,15 +156,15 @@
     const shift = rows.map((row) => -row.reduce((sum, part, k) => sum + part * middle[k], 0));
     shift[0] += camera.aside[0] * radius;
     shift[1] += camera.aside[1] * radius;
-    shift[2] -= radius * 3.2 * camera.distance;
+    shift[2] -= radius * DISTANCE * camera.distance;
     return [0, 1, 2].flatMap((k) => [rows[0][k], rows[1][k], rows[2][k], 0]).concat(shift, 1);
   }
 
   function projection(aspect) {
-    const far = radius * (3.2 * camera.distance + 4);
-    const near = Math.max(radius * (3.2 * camera.distance - 2), far / 2000);
+    const far = radius * (DISTANCE * camera.distance + 4);
+    const near = Math.max(radius * (DISTANCE * camera.distance - 2), far / 2000);
     // The whole fits, whichever side is the shorter.
-    const scale = 2.9 * Math.min(1, aspect);
+    const scale = SCALE * Math.min(1, aspect);
     return [scale / aspect, 0, 0, 0, 0, scale, 0, 0, 0, 0, (far + near) / (near - far), -1, 0, 0, (2 * far * near) / (near - far), 0];
   }
 
@@ -174,9 +190,10 @@
     const [ground, line] = [colour("--ground"), colour("--ink")];
     const { attributes, faces, lines, ends } = uploaded(shown);
     gl.bindVertexArray(attributes);
-    const half = Math.floor(wide / 2);
+    // One above the other where there is no room beside.
+    const half = tall.matches ? [wide, Math.floor(high / 2)] : [Math.floor(wide / 2), high];
     gl.uniformMatrix4fv(at.view, false, view());
-    gl.uniformMatrix4fv(at.projection, false, projection(half / high));
+    gl.uniformMatrix4fv(at.projection, false, projection(half[0] / half[1]));
     gl.uniform3fv(at.ground, ground);
     gl.uniform3fv(at.line, line);
     const faced = (look, back) => {
@@ -186,7 +203,7 @@
       gl.drawElements(gl.TRIANGLES, levels[shown].corners.length, gl.UNSIGNED_INT, 0);
     };
     for (const side of [0, 1]) {
-      const box = [side * half, 0, half, high];
+      const box = tall.matches ? [0, (1 - side) * half[1], ...half] : [side * half[0], 0, ...half];
       gl.viewport(...box);
       gl.scissor(...box);
       gl.clearColor(...ground, 1);
@@ -215,7 +232,8 @@
   }
   /** By pixels. */
   function shift(x, y) {
-    const step = (2 * 3.2 * camera.distance) / (2.9 * Math.min(canvas.clientHeight, canvas.clientWidth / 2));
+    const half = tall.matches ? [canvas.clientWidth, canvas.clientHeight / 2] : [canvas.clientWidth / 2, canvas.clientHeight];
+    const step = (2 * DISTANCE * camera.distance) / (SCALE * Math.min(...half));
     camera.aside[0] += x * step;
     camera.aside[1] -= y * step;
     ask();
@@ -285,7 +303,7 @@
   section.querySelector("button").addEventListener("click", () => save(levels[shown]));
   canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
   canvas.addEventListener("webglcontextrestored", () => (made(), ask()));
-  matchMedia("(prefers-color-scheme:dark)").addEventListener("change", ask);
+  for (const media of [tall, matchMedia("(prefers-color-scheme:dark)")]) media.addEventListener("change", ask);
   new ResizeObserver(ask).observe(canvas);
 
   /** Gives the level that is shown as binary glTF, whose unit is the metre and whose y is up. */

@@ -16,7 +16,7 @@ use crate::say;
 pub(super) const SCRIPT: &str = include_str!("viewer.js");
 
 /// What all surfaces of a page take at most, in bytes of text. The reduced one is there in any case.
-const MOST_BYTES: usize = 4_500_000;
+const MOST_BYTES: usize = 4_000_000;
 
 /// What a triangle takes: three corners and half a vertex, which base64 makes a third longer.
 const TRIANGLE_BYTES: usize = (12 + 3) * 4 / 3;
@@ -31,6 +31,9 @@ pub struct Carried {
     across: f32,
     /// As reduced, then with more triangles where there is room.
     levels: Vec<Packed>,
+    /// Triangles before reduction.
+    #[serde(skip)]
+    all: usize,
 }
 
 /// One level.
@@ -65,14 +68,19 @@ impl Carried {
             let level = progressive.level_after(progressive.steps_to(wanted));
             levels.push(Packed::of(&progressive.extract(&level.triangles)));
         }
-        Some(Self { across: if axes == Axes::Ras { std::f32::consts::PI } else { 0.0 }, levels })
+        Some(Self { across: if axes == Axes::Ras { std::f32::consts::PI } else { 0.0 }, levels, all })
     }
 
     /// What each level is called, with its triangles.
     pub(super) fn names(&self) -> Vec<String> {
         let name = |(i, level): (usize, &Packed)| {
             let count = grouped(level.triangle_count);
-            if i == 0 { say!("report-view-reduced", count = count) } else { say!("report-view-before", count = count) }
+            match i {
+                0 => say!("report-view-reduced", count = count),
+                _ if level.triangle_count == self.all => say!("report-view-before", count = count),
+                // All of them would be too much for a page.
+                _ => say!("report-view-less", count = count, all = grouped(self.all)),
+            }
         };
         self.levels.iter().enumerate().map(name).collect()
     }
