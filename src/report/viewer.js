@@ -11,7 +11,7 @@
   if (!gl) return;
   section.hidden = false;
 
-  /** A level as it stands in the page: positions in 65,535ths of the box around it, and corners of triangles. */
+  /** A level as it stands in the page: positions in steps of 1/65,535 of the box around it, and corners of triangles. */
   function unpacked({ low, size, wide, positions, triangles }) {
     const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
     const grid = new Uint16Array(bytes(positions));

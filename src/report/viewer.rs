@@ -7,7 +7,6 @@ use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 
 use crate::io::Axes;
-use crate::language::grouped;
 use crate::mesh::{Bounds, TriMesh, Vec3};
 use crate::pipeline::run::Pipeline;
 use crate::say;
@@ -74,12 +73,12 @@ impl Carried {
     /// What each level is called, with its triangles.
     pub(super) fn names(&self) -> Vec<String> {
         let name = |(i, level): (usize, &Packed)| {
-            let count = grouped(level.triangle_count);
+            let count = level.triangle_count;
             match i {
                 0 => say!("report-view-reduced", count = count),
                 _ if level.triangle_count == self.all => say!("report-view-before", count = count),
                 // All of them would be too much for a page.
-                _ => say!("report-view-less", count = count, all = grouped(self.all)),
+                _ => say!("report-view-less", count = count, all = self.all),
             }
         };
         self.levels.iter().enumerate().map(name).collect()

@@ -14,9 +14,18 @@ report-settings = Einstellungen
 report-numbers = Zahlen
 report-by-hand = Von Hand gemessen
 report-stretches = Enger und weiter als beiderseits davon
-report-view-reduced = Reduziert: { $count } Dreiecke
-report-view-before = Vorher: { $count } Dreiecke
-report-view-less = Weniger reduziert: { $count } von { $all } Dreiecken
+report-view-reduced = Reduziert: { $count ->
+    [one] ein Dreieck
+   *[other] { $count } Dreiecke
+}
+report-view-before = Vorher: { $count ->
+    [one] ein Dreieck
+   *[other] { $count } Dreiecke
+}
+report-view-less = Weniger reduziert: { $count ->
+    [one] ein Dreieck
+   *[other] { $count } Dreiecke
+} von { $all }
 report-view-help = Ziehen dreht, Rad oder zwei Finger vergrößern, Umschalt und Ziehen verschiebt, Doppelklick zeigt das Ganze; oder Pfeiltasten, + und -, 0.
 report-view-save = Als GLB speichern
 

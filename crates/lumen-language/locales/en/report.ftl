@@ -14,9 +14,18 @@ report-settings = Settings
 report-numbers = Numbers
 report-by-hand = Measured by hand
 report-stretches = Narrower and wider than on either side
-report-view-reduced = Reduced: { $count } triangles
-report-view-before = Before: { $count } triangles
-report-view-less = Less reduced: { $count } of { $all } triangles
+report-view-reduced = Reduced: { $count ->
+    [one] one triangle
+   *[other] { $count } triangles
+}
+report-view-before = Before: { $count ->
+    [one] one triangle
+   *[other] { $count } triangles
+}
+report-view-less = Less reduced: { $count ->
+    [one] one triangle
+   *[other] { $count } triangles
+} of { $all }
 report-view-help = Drag to turn, wheel or two fingers to zoom, Shift and drag to move, double-click for the whole; or arrow keys, + and -, 0.
 report-view-save = Save as GLB
 

@@ -14,9 +14,18 @@ report-settings = Réglages
 report-numbers = Valeurs
 report-by-hand = Mesuré à la main
 report-stretches = Plus étroit ou plus large que de part et d'autre
-report-view-reduced = Réduite : { $count } triangles
-report-view-before = Avant : { $count } triangles
-report-view-less = Moins réduite : { $count } triangles sur { $all }
+report-view-reduced = Réduite : { $count ->
+    [one] { $count } triangle
+   *[other] { $count } triangles
+}
+report-view-before = Avant : { $count ->
+    [one] { $count } triangle
+   *[other] { $count } triangles
+}
+report-view-less = Moins réduite : { $count ->
+    [one] { $count } triangle
+   *[other] { $count } triangles
+} sur { $all }
 report-view-help = Glisser tourne, la molette ou deux doigts agrandissent, Maj et glisser déplacent, un double-clic montre le tout ; ou les flèches, + et -, 0.
 report-view-save = Enregistrer en GLB
 
