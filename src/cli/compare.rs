@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
+use glam::DVec3;
 use serde::Serialize;
 use tabled::builder::Builder;
 use tabled::settings::object::Columns;
@@ -24,7 +25,7 @@ use crate::language::grouped;
 use crate::mesh::arrays::{Association, Values};
 use crate::mesh::{Array, SurfaceIndex, TriMesh, Vec3};
 use crate::pipeline::beside::{Beside, Distances, Farthest, Looking, beside};
-use crate::pipeline::deviation::{Aligned, Deviation, REPORT_SAMPLES, align};
+use crate::pipeline::deviation::{Aligned, Deviation, REPORT_SAMPLES, Rigid, align};
 use crate::pipeline::report::DISCLAIMER;
 use crate::pipeline::settings::Settings;
 use crate::sharing::Digest;
@@ -104,14 +105,24 @@ struct Side<'a> {
     volume_mm3: Option<f64>,
 }
 
-/// How the surface was moved.
+/// How the surface was moved, in the coordinates of the files in mm: turned about the origin, then shifted.
 #[derive(Clone, Copy, Serialize)]
 struct Moved {
-    /// The angle that it was turned by.
+    /// As a quaternion x, y, z, w.
+    rotation: [f64; 4],
+    shift_mm: [f64; 3],
+    /// The angle of the rotation.
     turned_deg: f64,
     /// How far its vertices came, on the mean.
     mean_shift_mm: f64,
-    /// Root of the mean square distance of the nearest four fifths of its points before.
+    /// What came of fitting it; null where only axes were turned.
+    fit: Option<Fit>,
+}
+
+/// Root of the mean square distance of the nearest four fifths of the surface's points.
+#[derive(Clone, Copy, Serialize)]
+struct Fit {
+    /// Before, axes turned already.
     before_mm: f64,
     /// And after.
     residual_mm: f64,
@@ -170,8 +181,8 @@ impl Compare {
         };
         let reference = open(&self.reference, self.reference_unit)?;
         let mut surface = open(&self.file, self.unit)?;
-        self.stand(&reference, &mut surface)?;
-        let moved = self.moved(&reference, &mut surface)?;
+        let stand = self.stand(&reference, &surface)?;
+        let moved = self.moved(&reference, &mut surface, stand)?;
 
         let meshes = [&reference, &surface].map(|opened| Arc::new(opened.imported.mesh.clone()));
         let how = Looking {
@@ -220,56 +231,73 @@ impl Compare {
         }
     }
 
-    /// Puts the surface where it stands in the reference's coordinates: files far from the origin were moved when they were
-    /// read, and axes may be turned.
-    fn stand(&self, reference: &Opened, surface: &mut Opened) -> Result<()> {
-        let [to, from] = [reference, &*surface].map(|opened| opened.imported.report.moved_mm);
-        if to != from {
-            for p in &mut surface.imported.mesh.positions {
-                *p = Vec3::from_array(std::array::from_fn(|i| (f64::from(p[i]) - from[i] + to[i]) as f32));
-            }
-            surface.imported.report.moved_mm = to;
-        }
-        let [to, from] = [reference, &*surface].map(|opened| opened.imported.report.axes);
-        let are_known = to != Axes::Unknown && from != Axes::Unknown;
-        match self.align {
-            Some(Align::Axes) if !are_known => Err(misuse(
+    /// What brings the surface, as it was read, to where it stands in the reference's coordinates: files far from the origin
+    /// were moved when they were read, and axes are turned where that is asked for.
+    fn stand(&self, reference: &Opened, surface: &Opened) -> Result<Rigid> {
+        let both = [reference, surface].map(|opened| &opened.imported.report);
+        let [to, from] = both.map(|report| DVec3::from(report.moved_mm));
+        let [onto, axes] = both.map(|report| report.axes);
+        let are_known = onto != Axes::Unknown && axes != Axes::Unknown;
+        if self.align == Some(Align::Axes) && !are_known {
+            return Err(misuse(
                 "which way the axes point is said by one of the files at most: --align rigid finds how they fit",
-            )),
-            Some(_) if are_known => {
-                let Imported { mesh, arrays, report } = &mut surface.imported;
-                report.axes.turn(to, mesh, &mut [], arrays)?;
-                report.axes = to;
-                Ok(())
-            }
-            None if are_known && to != from => {
-                eprintln!("lumen: warning: the first is in {to}, the second in {from}: --align axes turns it");
-                Ok(())
-            }
-            _ => Ok(()),
+            ));
         }
+        let differ = are_known && onto != axes;
+        if differ && self.align.is_none() {
+            eprintln!("lumen: warning: the first is in {onto}, the second in {axes}: --align axes turns it");
+        }
+        let turned = if differ && self.align.is_some() { Rigid::HALF_TURN } else { Rigid::STILL };
+        Ok(Rigid::shift(-from).then(turned).then(Rigid::shift(to)))
     }
 
-    /// Moves the surface onto the reference, where that is asked for.
-    fn moved(&self, reference: &Opened, surface: &mut Opened) -> Result<Option<Moved>> {
-        if self.align != Some(Align::Rigid) {
-            return Ok(None);
+    /// Moves the surface to where it stands, and onto the reference where that is asked for.
+    fn moved(&self, reference: &Opened, surface: &mut Opened, stand: Rigid) -> Result<Option<Moved>> {
+        let (mut motion, mut fit) = (stand, None);
+        if self.align == Some(Align::Rigid) {
+            let (onto, mut mesh) = (reference.imported.mesh.clone(), surface.imported.mesh.clone());
+            mesh.positions.iter_mut().for_each(|p| *p = stand.of(*p));
+            let found = worked("Aligning", |yielder| async move {
+                let index = SurfaceIndex::new(&onto.positions, &onto.triangles);
+                align(&mesh, &onto, &index, &yielder).await
+            })?;
+            let Aligned { motion: further, before_mm, residual_mm } =
+                found.context("one of the surfaces has no area: there is nothing to align")?;
+            motion = stand.then(further);
+            fit = Some(Fit { before_mm, residual_mm });
         }
-        let [onto, mesh] = [reference, &*surface].map(|opened| opened.imported.mesh.clone());
-        let Aligned { motion, before_mm, residual_mm } = worked("Aligning", |yielder| async move {
-            let index = SurfaceIndex::new(&onto.positions, &onto.triangles);
-            align(&mesh, &onto, &index, &yielder).await
-        })?
-        .context("one of the surfaces has no area: there is nothing to align")?;
-        let Imported { mesh, .. } = &mut surface.imported;
+        let Imported { mesh, arrays, report } = &mut surface.imported;
+        // In the coordinates of the files.
+        let [to, from] = [reference.imported.report.moved_mm, report.moved_mm].map(DVec3::from);
+        let in_files = Rigid::shift(from).then(motion).then(Rigid::shift(-to));
         let mut shifts = 0.0;
         for p in &mut mesh.positions {
-            let to = motion.of(*p);
-            shifts += f64::from(p.distance(to));
-            *p = to;
+            let begun = p.as_dvec3() - from;
+            shifts += begun.distance(in_files.moved(begun));
+            *p = motion.of(*p);
         }
-        let mean_shift_mm = shifts / mesh.positions.len().max(1) as f64;
-        Ok(Some(Moved { turned_deg: motion.angle_deg(), mean_shift_mm, before_mm, residual_mm }))
+        report.moved_mm = to.to_array();
+        if self.align.is_none() {
+            return Ok(None);
+        }
+        let onto = reference.imported.report.axes;
+        if fit.is_none() {
+            report.axes.turn(onto, &mut TriMesh::default(), &mut [], arrays)?;
+        } else {
+            let lost = arrays.extract_if(.., |array| io::has_directions(array)).map(|array| array.name);
+            let lost = lost.collect::<Vec<_>>().join(", ");
+            if !lost.is_empty() && self.output.is_some() {
+                eprintln!("lumen: warning: directions do not turn with the surface, these arrays are left out: {lost}");
+            }
+        }
+        report.axes = onto;
+        Ok(Some(Moved {
+            rotation: in_files.rotation.to_array(),
+            shift_mm: in_files.shift_mm.to_array(),
+            turned_deg: in_files.angle_deg(),
+            mean_shift_mm: shifts / mesh.positions.len().max(1) as f64,
+            fit,
+        }))
     }
 }
 
@@ -295,12 +323,17 @@ fn worked<T: 'static, F: Future<Output = T> + Send + 'static>(
 /// Writes a surface with its distances.
 fn written(path: &Path, imported: &Imported, distances: &Distances) -> Result<()> {
     let Imported { mesh, arrays, report } = imported;
+    let maps = [("deviation_mm", &distances.plain), ("signed_deviation_mm", &distances.signed)];
+    // Those of an earlier comparison go.
     let mut arrays = arrays.clone();
-    for (name, map) in [("deviation_mm", &distances.plain), ("signed_deviation_mm", &distances.signed)] {
-        arrays.push(Array::new(name, Association::Point, 1, Values::from_floats(map)));
+    arrays.retain(|array| array.on != Association::Point || maps.iter().all(|(name, _)| *name != array.name));
+    arrays.extend(maps.map(|(name, map)| Array::new(name, Association::Point, 1, Values::from_floats(map))));
+    let format = output_format(path)?;
+    if let Some(left_out) = io::left_out(&arrays, format) {
+        eprintln!("lumen: warning: {}: {left_out}", path.display());
     }
     let output = Output { mesh, normals: None, arrays: &arrays, axes: report.axes };
-    write_whole(path, &io::write_output(&output, output_format(path)?)?)
+    write_whole(path, &io::write_output(&output, format)?)
 }
 
 fn side<'a>(file: &'a str, Opened { imported, digest }: &Opened) -> Side<'a> {
@@ -391,17 +424,21 @@ fn print(told: &Told<'_>) {
     let mut table = rows.build();
     table.with(Style::blank()).modify(Columns::new(1..), Alignment::right());
     println!("{table}\n");
-    if let Some(Moved { turned_deg, mean_shift_mm, before_mm, residual_mm }) = moved {
+    if let Some(Moved { turned_deg, mean_shift_mm, fit, .. }) = moved {
         row("the surface was moved", format!("{mean_shift_mm:.2} mm on the mean, turned by {turned_deg:.2} degrees"));
-        row("residual", format!("{residual_mm:.4} mm, {before_mm:.4} before"));
+        if let Some(Fit { before_mm, residual_mm }) = fit {
+            row("residual", format!("{residual_mm:.4} mm, {before_mm:.4} before"));
+        }
     }
     row("deviation, mean", format!("{:.4} mm", deviation_mm.mean));
     row("deviation, RMS", format!("{:.4} mm", deviation_mm.rms));
     row("deviation, p95", format!("{:.4} mm", deviation_mm.p95));
-    for (what, Farthest { mm, at_most_mm, at_mm: [x, y, z] }) in
+    for (what, Farthest { mm, at_most_mm, at_mm: [x, y, z], .. }) in
         [("reference from surface", told.reference_farthest), ("surface from reference", told.surface_farthest)]
     {
-        row(what, format!("{mm:.4} mm at ({x:.1}, {y:.1}, {z:.1}), no point farther than {at_most_mm:.4}"));
+        // Rounded up, or it would not be so.
+        let most = (at_most_mm * 1e4).ceil() / 1e4;
+        row(what, format!("{mm:.4} mm at ({x:.1}, {y:.1}, {z:.1}), no point farther than {most:.4}"));
     }
     let calibre = &told.calibre;
     if let Some(refused) = &calibre.refused {
@@ -437,7 +474,10 @@ fn print(told: &Told<'_>) {
     table.with(Style::blank()).modify(Columns::new(1..6), Alignment::right());
     println!("\n{table}");
     let verdict = calibre.verdict.map_or_else(String::new, |verdict| verdict.to_string());
-    row("calibre", format!("{verdict}, at a tolerance of {} %", calibre.tolerance_percent));
+    let over = calibre
+        .measured_percent
+        .map_or_else(String::new, |percent| format!(", measured over {:.0} % of the length", percent.floor()));
+    row("calibre", format!("{verdict}, at a tolerance of {} %{over}", calibre.tolerance_percent));
 }
 
 fn change(from: f64, to: f64) -> String {

@@ -92,7 +92,7 @@ pub(super) fn write(document: &Document) -> String {
     table(&mut page, &say!("vessels-heading"), &document.vessels);
     let _ = writeln!(page, "<p class=\"weak\">{}</p>", escaped(&document.line));
     if let Some(surface) = &document.surface {
-        let (data, script) = (surface.data(), viewer::SCRIPT);
+        let (data, script) = (surface.data(), viewer::script());
         let _ = write!(
             page,
             "<script type=\"application/json\" id=\"surface\">{data}</script>\n<script>{script}</script>\n"
@@ -111,7 +111,7 @@ fn surface(page: &mut String, surface: &Carried) {
         let checked = if i == 0 { " checked" } else { "" };
         let _ = write!(
             page,
-            "<label><input type=\"radio\" name=\"level\" value=\"{i}\"{checked}> {}</label>",
+            "<label><input type=\"radio\" autocomplete=\"off\" name=\"level\" value=\"{i}\"{checked}> {}</label>",
             escaped(name)
         );
     }

@@ -31,20 +31,17 @@
     return sums;
   }
 
-  /** Each edge once. */
+  /** Each edge once: its ends as one number, in order, so that what stands twice stands side by side. */
   function edges({ place, corners }) {
     const count = place.length / 3;
-    const seen = new Set();
-    const ends = [];
-    for (let t = 0; t < corners.length; t++) {
-      const [a, b] = [corners[t], corners[t % 3 === 2 ? t - 2 : t + 1]];
-      const key = Math.min(a, b) * count + Math.max(a, b);
-      if (!seen.has(key)) {
-        seen.add(key);
-        ends.push(a, b);
-      }
-    }
-    return new Uint32Array(ends);
+    const both = Float64Array.from(corners, (a, t) => {
+      const b = corners[t % 3 === 2 ? t - 2 : t + 1];
+      return Math.min(a, b) * count + Math.max(a, b);
+    }).sort();
+    const once = both.filter((edge, i) => edge !== both[i - 1]);
+    const ends = new Uint32Array(once.length * 2);
+    once.forEach((edge, i) => ends.set([Math.floor(edge / count), edge % count], 2 * i));
+    return ends;
   }
 
   const SHADED = 0, GROUND = 1, LINES = 2;

@@ -92,8 +92,18 @@ fn a_surface_is_moved_onto_the_reference_only_when_that_is_asked_for() {
     assert!(told["moved"].is_null() && number(&told, "/surface_farthest/mm") > 100.0);
     let aligned = report(&folder, [&egg, &away], &["--align", "rigid"]);
     assert!((number(&aligned, "/moved/turned_deg") - 0.25f64.to_degrees()).abs() < 0.05, "{aligned}");
-    assert!(number(&aligned, "/moved/residual_mm") < 0.01 && number(&aligned, "/surface_farthest/mm") < 0.05);
-    assert!((number(&aligned, "/moved/before_mm") / number(&told, "/deviation_mm/rms") - 1.0).abs() < 0.2);
+    assert!(number(&aligned, "/moved/fit/residual_mm") < 0.01 && number(&aligned, "/surface_farthest/mm") < 0.05);
+    // The motion that is told undoes the one that was made.
+    let [rotation, shift] = ["rotation", "shift_mm"].map(|name| {
+        let numbers = aligned["moved"][name].as_array().unwrap().iter();
+        numbers.map(|number| number.as_f64().unwrap()).collect::<Vec<_>>()
+    });
+    let (rotation, shift) = (glam::DQuat::from_slice(&rotation), glam::DVec3::from_slice(&shift));
+    for (here, there) in egg.positions.iter().zip(&away.positions).step_by(50) {
+        let back = rotation * there.as_dvec3() + shift;
+        assert!(back.distance(here.as_dvec3()) < 0.05, "{here} beside {back}");
+    }
+    assert!((number(&aligned, "/moved/fit/before_mm") / number(&told, "/deviation_mm/rms") - 1.0).abs() < 0.2);
     let [first, second] = ["first.ply", "second.stl"].map(|name| folder.file(name));
     let hint = String::from_utf8(lumen(&["compare", &first, &second]).stderr).unwrap();
     assert!(hint.contains("--align rigid"), "{hint}");
@@ -117,9 +127,59 @@ fn axes_that_differ_are_told_and_turned_when_that_is_asked_for() {
     assert!(number(&json(&told), "/surface_farthest/mm") > 50.0);
     succeed(&["compare", &lps, &ras, "--align", "axes", "--report", &told]);
     assert!(number(&json(&told), "/surface_farthest/mm") < 1e-3);
+    assert!((number(&json(&told), "/moved/turned_deg") - 180.0).abs() < 1e-9);
     let refused = lumen(&["compare", &lps, &plain, "--align", "axes"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(String::from_utf8(refused.stderr).unwrap().contains("--align rigid finds how they fit"));
+}
+
+#[test]
+fn files_far_from_the_origin_are_compared_where_they_stand_and_turned_about_it() {
+    // Of 64 bits, as far away as maps and stages of microscopes are; the second is 0.5 mm off along x.
+    let folder = Folder::new("compare-far");
+    let egg = moved(&icosphere(3, 1.0, Vec3::ZERO), |p| p * Vec3::new(30.0, 20.0, 10.0));
+    let write = |name: &str, axes: &str, to: [f64; 3], sign: f64| {
+        let mut text = format!(
+            "ply\nformat ascii 1.0\ncomment SPACE={axes}\nelement vertex {}\nproperty double x\nproperty double y\n\
+             property double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+            egg.positions.len(),
+            egg.triangles.len()
+        );
+        for p in &egg.positions {
+            let [x, y, z] = p.to_array().map(f64::from);
+            text += &format!("{:.7} {:.7} {:.7}\n", sign * (x + to[0]), sign * (y + to[1]), z + to[2]);
+        }
+        egg.triangles.iter().for_each(|[a, b, c]| text += &format!("3 {a} {b} {c}\n"));
+        std::fs::write(folder.file(name), text).unwrap();
+        folder.file(name)
+    };
+    let lps = write("lps.ply", "LPS", [1e6, -2e6, 3e6], 1.0);
+    let off = write("off.ply", "LPS", [1e6 + 0.5, -2e6, 3e6], 1.0);
+    let ras = write("ras.ply", "RAS", [1e6 + 0.5, -2e6, 3e6], -1.0);
+    let told = folder.file("told.json");
+    for (other, more) in [(&off, &[][..]), (&ras, &["--align", "axes"])] {
+        succeed(&[&["compare", &lps, other, "--report", &told], more].concat());
+        let mm = number(&json(&told), "/surface_farthest/mm");
+        assert!((mm - 0.5).abs() < 0.01, "{other}: {mm}");
+    }
+    succeed(&["compare", &lps, &ras, "--align", "rigid", "--report", &told]);
+    assert!(number(&json(&told), "/surface_farthest/mm") < 0.01);
+}
+
+#[test]
+fn distances_of_an_earlier_comparison_are_replaced_and_a_format_without_room_is_told() {
+    let folder = Folder::new("compare-again");
+    let [small, large] = [10.0, 12.0].map(|radius| icosphere(3, radius, Vec3::ZERO));
+    let [first, again, out] = ["first.vtp", "again.vtp", "out.stl"].map(|name| folder.file(name));
+    report(&folder, [&small, &large], &["-o", &first]);
+    // Beside itself everything is 0, whatever it was before.
+    succeed(&["compare", &first, &first, "-o", &again]);
+    let arrays = read(&std::fs::read(&again).unwrap(), &again, &ImportOptions::default()).unwrap().arrays;
+    let named: Vec<_> = arrays.iter().filter(|array| array.name == "deviation_mm").collect();
+    assert!(named.len() == 1 && (0..named[0].values.len()).all(|i| named[0].values.get(i) < 1e-4));
+    let told = lumen(&["compare", &first, &again, "-o", &out]);
+    let told = String::from_utf8(told.stderr).unwrap();
+    assert!(told.contains("out.stl") && told.contains("deviation_mm"), "{told}");
 }
 
 #[test]

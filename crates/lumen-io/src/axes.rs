@@ -90,6 +90,11 @@ impl Axes {
     }
 }
 
+/// Whether an array has a direction at each place, which turns with the surface.
+pub fn has_directions(array: &Array) -> bool {
+    flips(array).is_some()
+}
+
 /// Which components change their sign where an array has a direction at each place: a vector, a tensor by rows, or a
 /// symmetric one in VTK's order (XX, YY, ZZ, XY, YZ, XZ).
 fn flips(array: &Array) -> Option<&'static [bool]> {

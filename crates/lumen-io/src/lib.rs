@@ -34,7 +34,7 @@ mod vtk;
 mod warnings;
 mod weld;
 
-pub use axes::{Axes, TurnError};
+pub use axes::{Axes, TurnError, has_directions};
 pub use detect::may_be_volume;
 pub use error::{Counted, Elements, Feature, Named, ReadError, Unfolded, Unnamed, WriteError};
 pub use estimate::{Estimate, estimate};

@@ -26,10 +26,13 @@ pub struct Looking {
 pub struct Farthest {
     /// Its distance in mm.
     pub mm: f64,
-    /// No other point is farther than this, in mm: less than 0.5 % more, for certain.
+    /// No other point is farther than this, in mm, for certain: less than 0.5 % more, or what the rounding of 32-bit
+    /// coordinates makes of it.
     pub at_most_mm: f64,
     /// Where it is, in mm.
     pub at_mm: [f32; 3],
+    /// What of the other surface is nearest to it, in mm.
+    pub nearest_mm: [f32; 3],
 }
 
 /// Mean distances around each vertex of one of the surfaces from the other, in mm.
@@ -91,7 +94,12 @@ pub async fn beside(
     let (reference, surface) = (subject(reference, of_reference), subject(surface, of_surface));
     let all = [reference.clone(), reference, surface];
     let calibre = Certificate::of(all, how.tolerance_percent, &yielder.part(0.7..1.0)).await;
-    let deviation = Deviation { max: there.mm.max(back.mm), ..comparison.deviation };
+    let (max, max_at_mm) = if there.mm > back.mm {
+        (there.mm, [there.at_mm, there.nearest_mm])
+    } else {
+        (back.mm, [back.nearest_mm, back.at_mm])
+    };
+    let deviation = Deviation { max, max_at_mm, ..comparison.deviation };
     let over_surface = Distances { plain: comparison.map, signed: comparison.signed_map };
     Some(Beside { deviation, over_surface, over_reference, farthest: [there, back], calibre })
 }
@@ -101,5 +109,6 @@ async fn farthest(mesh: &TriMesh, from: &SurfaceIndex, place: Vec3, yielder: &Yi
     let known_mm = from.nearest(place).map_or(0.0, |found| f64::from(found.distance));
     let Reach { farthest, at_most_mm } = reach(mesh, from, known_mm, yielder).await?;
     let (mm, at) = if known_mm > farthest.distance { (known_mm, place) } else { (farthest.distance, farthest.point) };
-    Some(Farthest { mm, at_most_mm: at_most_mm.max(mm), at_mm: at.to_array() })
+    let nearest_mm = from.nearest(at)?.point.to_array();
+    Some(Farthest { mm, at_most_mm: at_most_mm.max(mm), at_mm: at.to_array(), nearest_mm })
 }

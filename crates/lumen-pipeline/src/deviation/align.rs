@@ -56,6 +56,17 @@ pub struct Aligned {
 }
 
 impl Rigid {
+    /// Half a turn about the third axis: from LPS to RAS, and back.
+    pub const HALF_TURN: Self = Self { rotation: DQuat::from_xyzw(0.0, 0.0, 1.0, 0.0), shift_mm: DVec3::ZERO };
+
+    /// Nothing is moved.
+    pub const STILL: Self = Self { rotation: DQuat::IDENTITY, shift_mm: DVec3::ZERO };
+
+    /// A shift alone.
+    pub fn shift(mm: DVec3) -> Self {
+        Self { shift_mm: mm, ..Self::STILL }
+    }
+
     /// Where `p` comes to.
     pub fn of(&self, p: Vec3) -> Vec3 {
         self.moved(p.as_dvec3()).as_vec3()
@@ -66,7 +77,8 @@ impl Rigid {
         2.0 * libm::atan2(self.rotation.xyz().length(), self.rotation.w.abs()).to_degrees()
     }
 
-    fn moved(&self, p: DVec3) -> DVec3 {
+    /// [`of`](Self::of), in 64 bits.
+    pub fn moved(&self, p: DVec3) -> DVec3 {
         self.rotation * p + self.shift_mm
     }
 
@@ -75,7 +87,9 @@ impl Rigid {
         Self { rotation, shift_mm: to - rotation * from }
     }
 
-    fn then(self, next: Self) -> Self {
+    /// This motion, then another.
+    #[must_use]
+    pub fn then(self, next: Self) -> Self {
         Self { rotation: (next.rotation * self.rotation).normalize(), shift_mm: next.moved(self.shift_mm) }
     }
 }
@@ -92,11 +106,10 @@ pub async fn align(mesh: &TriMesh, other: &TriMesh, index: &SurfaceIndex, yielde
     let [few, many] = POINTS.map(|count| points(&of_mesh, count));
     let middle = |of: &[DVec3]| of.iter().sum::<DVec3>() / of.len() as f64;
     let (from, to) = (middle(&many), middle(&points(&of_other, POINTS[1])));
-    let half_turn = DQuat::from_xyzw(0.0, 0.0, 1.0, 0.0);
     let onto = Onto { mesh: other, index };
-    let stay = Rigid { rotation: DQuat::IDENTITY, shift_mm: DVec3::ZERO };
-    let turned = Rigid { rotation: half_turn, shift_mm: DVec3::ZERO };
-    let beginnings = [stay, Rigid::about(DQuat::IDENTITY, from, to), turned, Rigid::about(half_turn, from, to)];
+    let (stay, turned) = (Rigid::STILL, Rigid::HALF_TURN);
+    let centred = |motion: Rigid| Rigid::about(motion.rotation, from, to);
+    let beginnings = [stay, centred(stay), turned, centred(turned)];
 
     let before_mm = onto.pairs(&many, stay)?.residual();
     let negligible = NEGLIGIBLE * many.iter().map(|p| p.distance(from)).fold(0.0, f64::max);
