@@ -134,7 +134,8 @@ test("the surface in a saved page is turned, zoomed and saved there, on a desk a
       assert(differing(turned, await seen()).every((count) => count > 500), "both are zoomed");
       await canvas.focus();
       await other.keyboard.press("0");
-      assert.deepEqual(differing(first, await seen()), [0, 0], "0 shows the whole again");
+      // But for the corners of the ring that says where the keyboard is.
+      assert(differing(first, await seen()).every((count) => count < 10), "0 shows the whole again");
       await other.keyboard.press("ArrowLeft");
       assert(differing(first, await seen()).every((count) => count > 500), "keys turn");
       await other.keyboard.press("0");
