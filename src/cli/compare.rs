@@ -175,8 +175,11 @@ impl Compare {
             output_format(path)?;
         }
         interrupt::listen()?;
-        let open = |name, unit| -> Result<Opened> {
-            let (imported, digest) = source::read_known(name, unit, &Default::default())?;
+        let open = |name: &str, unit| -> Result<Opened> {
+            let (imported, digest) = source::read_quietly(name, unit)?;
+            for warning in &imported.report.warnings {
+                eprintln!("lumen: warning: {name}: {warning}");
+            }
             Ok(Opened { imported, digest })
         };
         let reference = open(&self.reference, self.reference_unit)?;

@@ -211,6 +211,13 @@ fn nothing_is_written_over_what_is_read_and_half_a_file_is_told() {
     let output = lumen(&["compare", "sample:aorta", &file, "-o", &file]);
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(std::fs::read(&file).unwrap(), bytes);
+    // A warning says of which file it is.
+    let inside_out = folder.file("inside-out.ply");
+    let mut mesh = icosphere(2, 10.0, Vec3::ZERO);
+    mesh.triangles.iter_mut().for_each(|t| t.swap(0, 1));
+    std::fs::write(&inside_out, write(&mesh, None, Format::Ply).unwrap()).unwrap();
+    let told = String::from_utf8(lumen(&["compare", &file, &inside_out]).stderr).unwrap();
+    assert!(told.contains("inside-out.ply: 1 piece found inside out and turned."), "{told}");
     let half = folder.file("half.stl");
     std::fs::write(&half, b"solid nothing\nendsolid\n").unwrap();
     let output = lumen(&["compare", &file, &half]);
