@@ -36,6 +36,9 @@ fn the_depth_of_a_valley_is_its_distance_though_no_vertex_and_hardly_a_sample_ha
         assert!(mm <= truth + 1e-6 && at_most >= truth - 1e-9 && at_most <= 1.005 * mm, "{side}: {mm} to {at_most}");
     }
     assert_eq!(number(&told, "/deviation_mm/max"), number(&told, "/surface_farthest/mm"));
+    // Where: first on the reference, which is flat, then at the bottom of the valley.
+    let z = [0, 1].map(|side| number(&told, &format!("/deviation_mm/max_at_mm/{side}/2")));
+    assert!(z[0] == 0.0 && (z[1] + 3.0).abs() < 1e-6, "{z:?}");
     // On the mean over both: the walls are 1.5 mm from the plane, the plane 1.2 mm from the walls; the walls have 5/4 of
     // its area, and as many samples.
     assert!((number(&told, "/deviation_mm/mean") - 1.35).abs() < 0.01, "{told}");
