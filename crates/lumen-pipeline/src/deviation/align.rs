@@ -291,6 +291,18 @@ mod tests {
     }
 
     #[test]
+    fn of_two_ways_to_fit_the_shorter_is_taken() {
+        // An ellipsoid in two triangulations fits itself turned by half a turn as well, but for what its facets make of it.
+        let [coarse, fine] =
+            [3, 4].map(|level| moved(&icosphere(level, 1.0, Vec3::ZERO), |p| p * Vec3::new(30.0, 20.0, 10.0)));
+        for i in 0..8 {
+            let turn = glam::Quat::from_rotation_z(0.05 * i as f32) * glam::Quat::from_rotation_x(0.03 * i as f32);
+            let Aligned { motion, .. } = aligned(&moved(&coarse, |p| turn * p), &fine).unwrap();
+            assert!(motion.angle_deg() < 45.0, "{i}: {}", motion.angle_deg());
+        }
+    }
+
+    #[test]
     fn what_only_one_has_pulls_at_nothing() {
         // A fifth of the points are of a plate that the other surface does not have, 60 mm away.
         let here = lopsided(4);
