@@ -1,9 +1,7 @@
 //! `lumen compare`: two surfaces side by side, whoever made them.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
 
 use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
@@ -17,20 +15,19 @@ use super::misuse::misuse;
 use super::options::percent;
 use super::places::{output_format, write_whole};
 use super::rows::row;
-use super::running::progress_bar;
+use super::running::worked;
 use super::source::{self, UnitOption};
 use super::{interrupt, places};
 use crate::io::{self, Axes, Imported, Output};
 use crate::language::grouped;
 use crate::mesh::arrays::{Association, Values};
-use crate::mesh::{Array, SurfaceIndex, TriMesh, Vec3};
+use crate::mesh::{Array, SurfaceIndex, TriMesh};
 use crate::pipeline::beside::{Beside, Distances, Farthest, Looking, beside};
 use crate::pipeline::deviation::{Aligned, Deviation, REPORT_SAMPLES, Rigid, align};
 use crate::pipeline::report::DISCLAIMER;
 use crate::pipeline::settings::Settings;
 use crate::sharing::Digest;
-use crate::task::{Budget, Progress, Running, Yielder};
-use crate::vessel::certificate::{BranchCalibre, Certificate, Verdict};
+use crate::vessel::certificate::{BranchCalibre, SurfaceColumns, Verdict};
 use lumen_message::signed;
 
 /// Compares two surfaces, of any program and resolution: how far apart they are both ways, and each vessel's calibre at the
@@ -55,7 +52,7 @@ pub struct Compare {
     /// Write the reference with its distances from the surface
     #[arg(long, value_name = "OUT")]
     reference_output: Option<PathBuf>,
-    /// Write a row for each place on a vessel where both were measured
+    /// Write a row for each station of a vessel: area and radius on both, empty where a cross-section does not close
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
     /// Write all numbers to this file
@@ -187,13 +184,12 @@ impl Compare {
         let stand = self.stand(&reference, &surface)?;
         let moved = self.moved(&reference, &mut surface, stand)?;
 
-        let meshes = [&reference, &surface].map(|opened| Arc::new(opened.imported.mesh.clone()));
+        let both = [&reference, &surface].map(|opened| Arc::new(opened.imported.mesh.clone()));
         let how = Looking {
             samples: REPORT_SAMPLES,
             tolerance_percent: self.tolerance,
             with_reference_map: self.reference_output.is_some(),
         };
-        let both = meshes.clone();
         let found = worked("Comparing", |yielder| async move { beside(&both[0], &both[1], how, &yielder).await })?;
         let found = found.context("one of the surfaces has no area: there is nothing to compare")?;
 
@@ -218,9 +214,8 @@ impl Compare {
             write_whole(path, serde_json::to_string_pretty(&told)?.as_bytes())?;
         }
         print(&told);
-        let size =
-            Vec3::from(reference.imported.report.bounds_mm.max) - Vec3::from(reference.imported.report.bounds_mm.min);
-        if self.align.is_none() && told.deviation_mm.mean > APART * f64::from(size.length()) {
+        let size = reference.imported.report.bounds_mm.diagonal();
+        if self.align.is_none() && told.deviation_mm.mean > APART * f64::from(size) {
             eprintln!(
                 "lumen: warning: the surfaces lie {:.1} mm apart on the mean: --align rigid moves the second onto the first",
                 told.deviation_mm.mean
@@ -228,7 +223,7 @@ impl Compare {
         }
         println!("{DISCLAIMER}");
         match (&self.csv, &found.calibre) {
-            (Some(path), Ok(calibre)) => write_whole(path, table(calibre).as_bytes()),
+            (Some(path), Ok(calibre)) => write_whole(path, calibre.csv_of(&COLUMNS).as_bytes()),
             (Some(path), Err(refused)) => bail!("{} is not written, there are no vessels: {refused}", path.display()),
             (None, _) => Ok(()),
         }
@@ -304,24 +299,11 @@ impl Compare {
     }
 }
 
+/// The surfaces of the table of stations.
+const COLUMNS: [SurfaceColumns; 2] = [("reference", |branch| &branch.opened), ("surface", |branch| &branch.reduced)];
+
 /// From this part of the reference's size on two surfaces are told to lie apart.
 const APART: f64 = 0.05;
-
-/// Does work in slices, and shows how far it is.
-fn worked<T: 'static, F: Future<Output = T> + Send + 'static>(
-    what: &'static str,
-    work: impl FnOnce(Yielder) -> F,
-) -> Result<T> {
-    let mut running = Running::new(work);
-    let bar = progress_bar(what)?;
-    loop {
-        interrupt::check()?;
-        match running.advance(Budget::new(Duration::from_millis(50))) {
-            Progress::Working(fraction) => bar.set_position((fraction * 1000.0) as u64),
-            Progress::Done(found) => break Ok(found),
-        }
-    }
-}
 
 /// Writes a surface with its distances.
 fn written(path: &Path, imported: &Imported, distances: &Distances) -> Result<()> {
@@ -376,29 +358,6 @@ fn branch(of: &BranchCalibre) -> Branch<'_> {
         largest_change_percent: of.reduced.largest_change.map(|change| change.percent),
         largest_change_at_mm: of.reduced.largest_change.map(|change| change.at_mm),
     }
-}
-
-/// A row a station. A field is empty where a cross-section does not close.
-fn table(certificate: &Certificate) -> String {
-    let mut text = "branch,abscissa_mm,x_mm,y_mm,z_mm,standing,area_reference_mm2,area_surface_mm2,\
-                    radius_reference_mm,radius_surface_mm,change_percent\n"
-        .to_owned();
-    for branch in &certificate.branches {
-        for (i, at) in branch.abscissas_mm.iter().enumerate() {
-            let ([x, y, z], standing) = (branch.at_mm[i], branch.standings[i].label());
-            let _ = write!(text, "{},{at:.4},{x:.4},{y:.4},{z:.4},{standing}", branch.number);
-            let [reference, surface] = [&branch.opened, &branch.reduced];
-            let both = [reference.areas_mm2[i], surface.areas_mm2[i], reference.radii_mm[i], surface.radii_mm[i]];
-            for value in both.into_iter().chain([surface.changes_percent[i]]) {
-                let _ = match value {
-                    Some(value) => write!(text, ",{value:.5}"),
-                    None => write!(text, ","),
-                };
-            }
-            text.push('\n');
-        }
-    }
-    text
 }
 
 fn print(told: &Told<'_>) {

@@ -10,12 +10,12 @@ use super::misuse::misuse;
 use super::options::MendingOptions;
 use super::places::{output_format, write_whole};
 use super::rows::row;
+use super::running::worked;
 use super::source::{self, UnitOption};
 use super::{interrupt, places};
 use crate::io::{self, Imported, Output};
 use crate::mesh::mending::{FaultCounts, Faults, MendReport, Mended, mend};
 use crate::pipeline::settings::Settings;
-use crate::pipeline::task::{Budget, Progress, Running};
 
 /// Mends what is wrong with a surface, and writes it: neither smoothed nor reduced.
 #[derive(Debug, Args)]
@@ -57,13 +57,8 @@ impl Mend {
         interrupt::listen()?;
         let Imported { mesh, arrays, report } = source::read_with(&self.file, self.unit, &Default::default())?;
         let faults_before = Faults::all(&mesh).counts();
-        let mut mending = Running::new(|yielder| async move { mend(mesh, arrays, asked, &yielder).await });
-        let Mended { mesh, arrays, report: mending } = loop {
-            interrupt::check()?;
-            if let Progress::Done(mended) = mending.advance(Budget::new(std::time::Duration::from_millis(50))) {
-                break mended;
-            }
-        };
+        let Mended { mesh, arrays, report: mending } =
+            worked("Mending", move |yielder| async move { mend(mesh, arrays, asked, &yielder).await })?;
         let faults_after = Faults::all(&mesh).counts();
         let output = Output { mesh: &mesh, normals: None, arrays: &arrays, axes: report.axes };
         write_whole(&self.output, &io::write_output(&output, format)?)?;

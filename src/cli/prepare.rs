@@ -1,7 +1,6 @@
 //! `lumen prepare`: a surface made ready for a flow or structure solver.
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
@@ -10,12 +9,11 @@ use serde_json::{Value, json};
 use super::misuse::misuse;
 use super::places::write_whole;
 use super::rows::row;
-use super::running::progress_bar;
+use super::running::worked;
 use super::source::{self, UnitOption};
 use super::{interrupt, places};
 use crate::io::Imported;
 use crate::pipeline::report::DISCLAIMER;
-use crate::pipeline::task::{Budget, Progress, Running};
 use crate::prepare::cap::CapKind;
 use crate::prepare::ends::Length;
 use crate::prepare::prepare::{ClipAt, Plan, Prepared, prepare};
@@ -137,17 +135,7 @@ impl Prepare {
         interrupt::listen()?;
         let Imported { mesh, .. } = source::read_with(&self.file, self.unit, &Default::default())?;
         let before = mesh.triangles.len();
-        let found = {
-            let mut running = Running::new(|yielder| async move { prepare(&mesh, &plan, &yielder).await });
-            let bar = progress_bar("Preparing")?;
-            loop {
-                interrupt::check()?;
-                match running.advance(Budget::new(Duration::from_millis(50))) {
-                    Progress::Working(fraction) => bar.set_position((fraction * 1000.0) as u64),
-                    Progress::Done(found) => break found,
-                }
-            }
-        };
+        let found = worked("Preparing", |yielder| async move { prepare(&mesh, &plan, &yielder).await })?;
         let found = found.map_err(|error| anyhow!("the surface cannot be prepared: {error}"))?;
         let mut files = vec![(format!("{stem}.json"), summary(&found)?)];
         for format in &self.format {

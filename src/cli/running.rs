@@ -11,7 +11,7 @@ use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::safe::NoSafeRate;
 use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
-use crate::pipeline::task::Budget;
+use crate::pipeline::task::{Budget, Progress, Running, Yielder};
 use crate::pipeline::verdict::rate;
 
 /// Lets `advance` run the pipeline to its end; with `wants_safe` once more, to the rate that it has found to be safe.
@@ -38,6 +38,22 @@ pub(super) fn progress_bar(what: &'static str) -> Result<ProgressBar> {
     bar.set_style(ProgressStyle::with_template("{msg:<24} {wide_bar} {percent:>3} %")?);
     bar.set_message(what);
     Ok(bar)
+}
+
+/// Does work in slices, and shows how far it is.
+pub(super) fn worked<T: 'static, F: Future<Output = T> + Send + 'static>(
+    what: &'static str,
+    work: impl FnOnce(Yielder) -> F,
+) -> Result<T> {
+    let mut running = Running::new(work);
+    let bar = progress_bar(what)?;
+    loop {
+        interrupt::check()?;
+        match running.advance(Budget::new(Duration::from_millis(50))) {
+            Progress::Working(fraction) => bar.set_position((fraction * 1000.0) as u64),
+            Progress::Done(found) => break Ok(found),
+        }
+    }
 }
 
 /// Runs all stages and shows how far they are, on standard error.

@@ -174,9 +174,8 @@
 
   /** "rgb(1, 2, 3)" */
   const colour = (name) => {
-    const probe = section.querySelector("canvas");
-    probe.style.color = `var(${name})`;
-    return getComputedStyle(probe).color.match(/[\d.]+/g).slice(0, 3).map((part) => part / 255);
+    canvas.style.color = `var(${name})`;
+    return getComputedStyle(canvas).color.match(/[\d.]+/g).slice(0, 3).map((part) => part / 255);
   };
 
   function draw() {

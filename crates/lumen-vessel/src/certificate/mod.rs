@@ -125,21 +125,32 @@ impl Certificate {
 
     /// A row a station, in the order of the branches. A field is empty where a cross-section does not close.
     pub fn csv(&self) -> String {
-        let mut text = "branch,abscissa_mm,x_mm,y_mm,z_mm,standing,area_opened_mm2,area_smoothed_mm2,area_reduced_mm2,\
-                        radius_opened_mm,radius_smoothed_mm,radius_reduced_mm,change_smoothed_percent,\
-                        change_reduced_percent,variation_percent\n"
-            .to_owned();
+        self.csv_of(&[
+            ("opened", |branch| &branch.opened),
+            ("smoothed", |branch| &branch.smoothed),
+            ("reduced", |branch| &branch.reduced),
+        ])
+    }
+
+    /// [`csv`](Self::csv), with columns of these surfaces alone. The changes are from the first of them.
+    pub fn csv_of(&self, surfaces: &[SurfaceColumns]) -> String {
+        let heads = |before: &str, after: &str, surfaces: &[SurfaceColumns]| -> String {
+            surfaces.iter().map(|(name, _)| format!(",{before}_{name}_{after}")).collect()
+        };
+        let later = surfaces.get(1..).unwrap_or_default();
+        let (areas, radii) = (heads("area", "mm2", surfaces), heads("radius", "mm", surfaces));
+        let changes = heads("change", "percent", later);
+        let mut text = format!("branch,abscissa_mm,x_mm,y_mm,z_mm,standing{areas}{radii}{changes},variation_percent\n");
         for branch in &self.branches {
             for i in 0..branch.abscissas_mm.len() {
                 let [x, y, z] = branch.at_mm[i];
                 let (number, at, standing) = (branch.number, branch.abscissas_mm[i], branch.standings[i].label());
                 let _ = write!(text, "{number},{at:.4},{x:.4},{y:.4},{z:.4},{standing}");
-                let surfaces = [&branch.opened, &branch.smoothed, &branch.reduced];
-                let areas = surfaces.map(|of| of.areas_mm2[i]);
-                let radii = surfaces.map(|of| of.radii_mm[i]);
-                let changes = [&branch.smoothed, &branch.reduced].map(|of| of.changes_percent[i]);
+                let areas = surfaces.iter().map(|(_, of)| of(branch).areas_mm2[i]);
+                let radii = surfaces.iter().map(|(_, of)| of(branch).radii_mm[i]);
+                let changes = later.iter().map(|(_, of)| of(branch).changes_percent[i]);
                 let variation = branch.variation_at(f64::from(at)).map(|percent| percent as f32);
-                for value in areas.into_iter().chain(radii).chain(changes).chain([variation]) {
+                for value in areas.chain(radii).chain(changes).chain([variation]) {
                     let _ = match value {
                         Some(value) => write!(text, ",{value:.5}"),
                         None => write!(text, ","),
@@ -151,6 +162,9 @@ impl Certificate {
         text
     }
 }
+
+/// What a surface is called in the heads of a table, and which of a branch's it is.
+pub type SurfaceColumns = (&'static str, fn(&BranchCalibre) -> &OnSurface);
 
 impl BranchCalibre {
     /// What it is called; `name` is the same in English.
