@@ -9,7 +9,6 @@
   const gl = canvas.getContext("webgl2", { antialias: true });
   // Then the pictures below are all there is.
   if (!gl) return;
-  section.hidden = false;
 
   /** A level as it stands in the page: positions in steps of 1/65,535 of the box around it, and corners of triangles. */
   function unpacked({ low, size, wide, positions, triangles }) {
@@ -79,7 +78,7 @@
       colour = vec4(pow(own * light, vec3(1. / 2.2)), 1);
     }`;
 
-  let program, at, buffers, extent;
+  let program, at, buffers;
   function made() {
     program = gl.createProgram();
     for (const [kind, source] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]]) {
@@ -89,6 +88,7 @@
       gl.attachShader(program, shader);
     }
     gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) throw new Error(gl.getProgramInfoLog(program));
     gl.useProgram(program);
     at = Object.fromEntries(["view", "projection", "back", "look", "ground", "line"].map((name) => [name, gl.getUniformLocation(program, name)]));
     gl.enable(gl.DEPTH_TEST);
@@ -336,5 +336,6 @@
   }
 
   made();
+  section.hidden = false;
   ask();
 })();
