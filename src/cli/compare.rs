@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use anyhow::{Context as _, Result, bail};
 use clap::{Args, ValueEnum};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use serde::Serialize;
 use tabled::builder::Builder;
 use tabled::settings::object::Columns;
@@ -215,7 +215,7 @@ impl Compare {
         }
         print(&told);
         let size = reference.imported.report.bounds_mm.diagonal();
-        if self.align.is_none() && told.deviation_mm.mean > APART * f64::from(size) {
+        if self.align != Some(Align::Rigid) && told.deviation_mm.mean > APART * f64::from(size) {
             eprintln!(
                 "lumen: warning: the surfaces lie {:.1} mm apart on the mean: --align rigid moves the second onto the first",
                 told.deviation_mm.mean
@@ -275,7 +275,7 @@ impl Compare {
             *p = motion.of(*p);
         }
         report.moved_mm = to.to_array();
-        if self.align.is_none() {
+        if fit.is_none() && motion.rotation == DQuat::IDENTITY {
             return Ok(None);
         }
         let onto = reference.imported.report.axes;

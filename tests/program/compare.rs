@@ -131,6 +131,8 @@ fn axes_that_differ_are_told_and_turned_when_that_is_asked_for() {
     succeed(&["compare", &lps, &ras, "--align", "axes", "--report", &told]);
     assert!(number(&json(&told), "/surface_farthest/mm") < 1e-3);
     assert!((number(&json(&told), "/moved/turned_deg") - 180.0).abs() < 1e-9);
+    succeed(&["compare", &lps, &lps, "--align", "axes", "--report", &told]);
+    assert!(json(&told)["moved"].is_null(), "nothing was to be turned");
     let refused = lumen(&["compare", &lps, &plain, "--align", "axes"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(String::from_utf8(refused.stderr).unwrap().contains("--align rigid finds how they fit"));
