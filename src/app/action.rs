@@ -3,7 +3,7 @@
 
 use super::options::ViewOptions;
 use super::row::Part;
-use super::{collapses, compare, lesson, measure, playback, record, scan, solver, trial, vessels};
+use super::{collapses, compare, lesson, measure, playback, record, reference, scan, solver, trial, vessels};
 use crate::io::{Axes, Format, Unit};
 use crate::language::Language;
 use crate::phantom::Sample;
@@ -86,6 +86,8 @@ pub enum Action {
     Compare,
     /// Something of the comparison.
     Comparison(compare::action::Action),
+    /// Something of the comparison with another file.
+    Reference(reference::action::Action),
     /// Start a trial or leave it.
     ToggleTrial,
     /// Something of the trial.

@@ -21,7 +21,7 @@ use super::row::{self, unbroken};
 use super::sides::side_label;
 use super::state::State;
 use super::views::Views;
-use super::{deviation, lesson, record, spoken, theme, verdict, vessels};
+use super::{deviation, lesson, record, reference, spoken, theme, verdict, vessels};
 use crate::io::{Axes, Format, Unit};
 use crate::language::{Key, Language, tell};
 use crate::phantom::Sample;
@@ -281,6 +281,9 @@ fn units(ui: &mut Ui, ask: &mut impl FnMut(bool, Action)) {
     for unit in Unit::ALL {
         ask(ui.button(format!("{unit}...")).clicked(), Action::OpenIn(unit));
     }
+    ui.separator();
+    let compare = ui.button(say!("reference-open")).on_hover_text(say!("reference-open-help"));
+    ask(compare.clicked(), Action::Reference(reference::Action::Choose));
 }
 
 /// What is kept on this device.
@@ -431,9 +434,11 @@ pub(super) fn notice(ui: &Ui, state: &State, views: &Views, is_narrow: bool, wid
         width -= theme::row(ui.ctx(), 20.0) + space;
     }
     if notice.kind == Kind::OffersNext {
-        let label = WidgetText::from(say!("app-open-next"));
-        let label = label.into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Button);
-        width -= label.size().x + 2.0 * ui.spacing().button_padding.x + space;
+        for label in [say!("app-open-next"), say!("reference-take-next")] {
+            let label = WidgetText::from(label);
+            let label = label.into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Button);
+            width -= label.size().x + 2.0 * ui.spacing().button_padding.x + space;
+        }
     }
     let told = lay_out(width);
     if is_narrow {
@@ -483,10 +488,14 @@ pub(super) fn status(
             name(&response, Role::Label, notice.text());
             is_read = true;
             let told = state.notices.newest();
-            if told.is_some_and(|told| told.kind == Kind::OffersNext)
-                && ui.button(say!("app-open-next")).on_hover_text(say!("app-open-next-help")).clicked()
-            {
-                asked.push(Action::OpenNext);
+            if told.is_some_and(|told| told.kind == Kind::OffersNext) {
+                if ui.button(say!("app-open-next")).on_hover_text(say!("app-open-next-help")).clicked() {
+                    asked.push(Action::OpenNext);
+                }
+                let compare = ui.button(say!("reference-take-next")).on_hover_text(say!("reference-take-next-help"));
+                if compare.clicked() {
+                    asked.push(Action::Reference(reference::Action::TakeNext));
+                }
             }
             if told.is_some_and(Notice::stands)
                 && icon::button(ui, Icon::Close, true, &say!("app-take-away"), &say!("app-take-away-help")).clicked()

@@ -10,7 +10,7 @@
 //! 4. `state`, `mode`;
 //! 5. drawing: `arrays`, `overlay`, `scene`, `deviation`, `mending`, `verdict`;
 //! 6. panels beside the views: [`collapses`], [`measure`], [`vessels`]; then `views`;
-//! 7. modes with views of their own: `filling`, [`compare`], [`solver`], [`trial`], [`scan`]; [`lesson`], [`record`], `recovery`;
+//! 7. modes with views of their own: `filling`, [`compare`], [`reference`], [`solver`], [`trial`], [`scan`]; [`lesson`], [`record`], `recovery`;
 //! 8. the window: `Panels` below, `bar`, `invitation`, `shortcuts`, `lumen_app`, `lasting`.
 //!
 //! One more panel is its folder, its variant in `action` and its lines in `Panels` below.
@@ -28,6 +28,7 @@
 //! - `drawer`: the panel of a phone; `tabs`: one large view there.
 //! - `sharing`: settings as a file and in a link; `recovery`: what comes back after a reload.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
+//! - [`reference`]: the open surface beside another file.
 //! - [`trial`]: the guidewire trial.
 //! - [`solver`]: a level made ready for a solver.
 //! - [`scan`]: a scan or a mask, before there is a surface.
@@ -93,6 +94,7 @@ mod portrait;
 mod presenter;
 pub mod record;
 mod recovery;
+pub mod reference;
 mod response;
 mod reveal;
 mod row;
@@ -146,6 +148,7 @@ struct Panels {
     vessels: vessels::Vessels,
     measure: measure::Measuring,
     compare: compare::CompareView,
+    reference: reference::ReferenceView,
     solver: solver::SolverView,
     trial: trial::TrialPanel,
     scan: scan::ScanPanel,
@@ -153,21 +156,21 @@ struct Panels {
 
 impl Panels {
     /// All of them, the lowest first: Escape takes off the last.
-    fn all(&self) -> [&dyn Panel; 9] {
-        let Self { lesson, collapses, playback, compare, vessels, measure, solver, trial, scan } = self;
-        [lesson, collapses, playback, compare, vessels, measure, solver, trial, scan]
+    fn all(&self) -> [&dyn Panel; 10] {
+        let Self { lesson, collapses, playback, compare, reference, vessels, measure, solver, trial, scan } = self;
+        [lesson, collapses, playback, compare, reference, vessels, measure, solver, trial, scan]
     }
 
     /// All of them, in the same order.
-    fn all_mut(&mut self) -> [&mut dyn Panel; 9] {
-        let Self { lesson, collapses, playback, compare, vessels, measure, solver, trial, scan } = self;
-        [lesson, collapses, playback, compare, vessels, measure, solver, trial, scan]
+    fn all_mut(&mut self) -> [&mut dyn Panel; 10] {
+        let Self { lesson, collapses, playback, compare, reference, vessels, measure, solver, trial, scan } = self;
+        [lesson, collapses, playback, compare, reference, vessels, measure, solver, trial, scan]
     }
 
     /// Those that have views of their own.
-    fn filling_mut(&mut self) -> [&mut dyn Filling; 4] {
-        let Self { compare, solver, trial, scan, .. } = self;
-        [compare, solver, trial, scan]
+    fn filling_mut(&mut self) -> [&mut dyn Filling; 5] {
+        let Self { compare, reference, solver, trial, scan, .. } = self;
+        [compare, reference, solver, trial, scan]
     }
 
     /// What fills the window in this mode; `None` for the views of the method.
@@ -175,6 +178,7 @@ impl Panels {
         match mode {
             Mode::Method => None,
             Mode::Compare => Some(&mut self.compare),
+            Mode::Reference => Some(&mut self.reference),
             Mode::Solver => Some(&mut self.solver),
             Mode::Trial => Some(&mut self.trial),
             Mode::Scan => Some(&mut self.scan),

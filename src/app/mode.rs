@@ -1,7 +1,7 @@
 //! The modes of the window, and the trait that each mode and panel implements.
 //!
-//! One [`Mode`] at a time has the window. A scan covers a trial, a trial covers what was made for a solver, that the
-//! comparison, and each of them covers the method. A surface that has no level yet covers all but a scan. What is covered keeps its state and is shown again when what
+//! One [`Mode`] at a time has the window. A scan covers a trial, a trial covers what was made for a solver, that another file
+//! beside the surface, that the comparison, and each of them covers the method. A surface that has no level yet covers all but a scan. What is covered keeps its state and is shown again when what
 //! covers it is left; a tab of the bar leaves the other tabs. Beside the views of the method stands at most one of
 //! [`Beside`]. Collapses, the reduction that is played and a lesson combine with these.
 //!
@@ -26,6 +26,8 @@ pub(super) enum Mode {
     Method,
     /// Several settings side by side.
     Compare,
+    /// The surface beside another file.
+    Reference,
     /// What was made ready for a solver.
     Solver,
     /// The guidewire trial.

@@ -70,8 +70,9 @@ impl Divider {
     }
 
     /// Shows it over the picture of view `index` in `rect`, and lets it be dragged, by pointer or arrow keys.
-    /// `before` is what stands at the left of it in place of the surface as it was opened, if something does.
-    pub(super) fn show(&mut self, ui: &mut Ui, rect: Rect, index: usize, before: Option<String>) {
+    /// `sides` is what stands at the left and at the right of it in place of the surface as it was opened and the level, if
+    /// something does.
+    pub(super) fn show(&mut self, ui: &mut Ui, rect: Rect, index: usize, sides: Option<[String; 2]>) {
         let x = rect.left() + rect.width() * self.at;
         let line = if theme::suits_finger(ui.ctx()) {
             // By its grip alone: a finger that turns the camera is not to catch the line.
@@ -81,10 +82,10 @@ impl Divider {
         };
         let response = ui.interact(line, ui.scope_id().with(("divider", index)), Sense::click_and_drag());
         let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
-        let label = match &before {
-            Some(before) if index > 0 => say!("views-divider-wireframe-other", before = before.as_str()),
+        let label = match &sides {
+            Some([before, _]) if index > 0 => say!("views-divider-wireframe-other", before = before.as_str()),
             None if index > 0 => say!("views-divider-wireframe"),
-            Some(before) => say!("views-divider-other", before = before.as_str()),
+            Some([before, _]) => say!("views-divider-other", before = before.as_str()),
             None => say!("views-divider"),
         };
         describe(&response, Role::Slider, &label, f64::from(self.at * 100.0).round());
@@ -103,7 +104,7 @@ impl Divider {
         self.draw(
             ui,
             rect,
-            before.unwrap_or_else(|| say!("views-as-opened")),
+            sides.unwrap_or_else(|| [say!("views-as-opened"), say!("views-now")]),
             response.hovered() || response.dragged() || response.has_focus(),
         );
     }
@@ -125,7 +126,7 @@ impl Divider {
         ui.ctx().request_repaint();
     }
 
-    fn draw(&self, ui: &Ui, rect: Rect, before: String, is_held: bool) {
+    fn draw(&self, ui: &Ui, rect: Rect, [before, after]: [String; 2], is_held: bool) {
         let painter = ui.painter_at(rect);
         let x = rect.left() + rect.width() * self.at;
         let (accent, on_accent) = (ui.visuals().hyperlink_color, ui.visuals().selection.stroke.color);
@@ -139,7 +140,7 @@ impl Divider {
             painter.add(Shape::line(arrow.to_vec(), Stroke::new(1.5, on_accent)));
         }
         let (text, plate) = (ui.visuals().text_color(), ui.visuals().window_fill.gamma_multiply(0.85));
-        let sides = [(before, -1.0, Align2::RIGHT_CENTER), (say!("views-now"), 1.0, Align2::LEFT_CENTER)];
+        let sides = [(before, -1.0, Align2::RIGHT_CENTER), (after, 1.0, Align2::LEFT_CENTER)];
         for (words, side, align) in sides {
             let galley = painter.layout_no_wrap(words, FontId::proportional(12.0), text);
             let place = align.anchor_size(pos2(x + 12.0 * side, rect.top() + 64.0), galley.size());

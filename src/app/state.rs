@@ -1,7 +1,8 @@
 //! What the app knows, and how it changes: by the user's hand and by what the engine says (`hearing`). It draws nothing.
-//! What is on its way in (`opening`), files on their way out (`saving`) and engines that end (`restarting`) have files of
+//! What is on its way in (`opening`), another file beside it (`beside`), files on their way out (`saving`) and engines that end (`restarting`) have files of
 //! their own.
 
+mod beside;
 mod hearing;
 mod opening;
 mod restarting;
@@ -15,6 +16,7 @@ use super::compare::comparison::Comparison;
 use super::document::{Document, Revision};
 use super::history::History;
 use super::notices::{Kind, Notices};
+use super::reference::against::Against;
 use super::solver::preparation::{Preparation, level};
 use crate::engine::{Calibre, Command, Link, Source, Work};
 use crate::io::{Axes, Unit};
@@ -59,6 +61,8 @@ pub struct State {
     pub comparison: Comparison,
     /// What is done to a level for a solver, and what came of it.
     pub preparation: Preparation,
+    /// Another file that the surface is compared with, and what came of it.
+    pub against: Against,
     /// Whether plain Laplacian smoothing is shown beside the level.
     pub shows_averaged: bool,
     /// The number of the newest request for it, and what that was for.
@@ -166,6 +170,7 @@ impl Default for State {
             document: None,
             comparison: Comparison::default(),
             preparation: Preparation::default(),
+            against: Against::default(),
             shows_averaged: false,
             averaging: None,
             opening: Vec::new(),
@@ -315,7 +320,8 @@ impl State {
         if matches!(self.engine, Engine::Empty | Engine::Stopped) && self.opening.is_empty() {
             // It is left alone until the hand is done with something that it is needed for.
             let is_wished = self.shows_averaged && self.engine == Engine::Stopped;
-            let is_needed = self.settings != self.sent || self.comparison.is_waiting() || is_wished;
+            let is_asked = self.comparison.is_waiting() || self.next_question().is_some();
+            let is_needed = self.settings != self.sent || is_asked || is_wished;
             if is_held || !is_needed {
                 return;
             }
@@ -342,6 +348,7 @@ impl State {
             self.number += 1;
             link.send(Command::Differ { id: self.number, first, other });
         }
+        self.compare_with_file(link);
         self.average(link);
         self.rest();
     }
@@ -380,7 +387,9 @@ impl State {
         self.work = match self.work {
             Some((Work::Comparing, _)) if !self.comparison.is_busy() => None,
             Some((Work::Preparing, _)) if !self.preparation.is_busy() => None,
+            Some((Work::Beside, _)) if !self.against.is_busy() => None,
             None if self.preparation.is_busy() => Some((Work::Preparing, 0.0)),
+            None if self.against.is_busy() => Some((Work::Beside, 0.0)),
             None if self.comparison.is_busy() => Some((Work::Comparing, 0.0)),
             work => work,
         };
@@ -389,12 +398,18 @@ impl State {
     /// Shows the compare view or leaves it. The first time it has the settings in force at the three rates of the
     /// paper's Figure 7, which need no more than three levels of what is there.
     pub fn toggle_comparison(&mut self) {
-        let is_open = !self.comparison.is_open();
+        let is_open = !self.comparison.is_open() || self.against.is_open;
+        self.leave_modes();
         self.comparison.set_open(is_open);
-        self.preparation.is_open = false;
         if is_open && self.comparison.cells().is_empty() {
             self.comparison.set(paper::rates_of_figure_7(&self.settings));
         }
+    }
+
+    /// Leaves what covers the method, but for trials and scans.
+    pub fn leave_modes(&mut self) {
+        self.comparison.set_open(false);
+        (self.preparation.is_open, self.against.is_open) = (false, false);
     }
 
     /// Has the level that is shown made ready for a solver.

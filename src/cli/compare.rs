@@ -3,10 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use anyhow::{Context as _, Result, bail};
+use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
-use glam::{DQuat, DVec3};
-use serde::Serialize;
 use tabled::builder::Builder;
 use tabled::settings::object::Columns;
 use tabled::settings::{Alignment, Style};
@@ -18,16 +16,18 @@ use super::rows::row;
 use super::running::worked;
 use super::source::{self, UnitOption};
 use super::{interrupt, places};
-use crate::io::{self, Axes, Imported, Output};
+use crate::io::{self, Imported, Output};
 use crate::language::grouped;
 use crate::mesh::arrays::{Association, Values};
-use crate::mesh::{Array, SurfaceIndex, TriMesh};
-use crate::pipeline::beside::{Beside, Distances, Farthest, Looking, beside};
-use crate::pipeline::deviation::{Aligned, Deviation, REPORT_SAMPLES, Rigid, align};
+use crate::mesh::{Array, Measures, TriMesh};
+use crate::pipeline::beside::{
+    Align, BesideError, BesideReport, Distances, Farthest, FileFrame, Fit, Looking, Moved, Placed, Side, axes_differ,
+    beside, placed,
+};
+use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::DISCLAIMER;
 use crate::pipeline::settings::Settings;
 use crate::sharing::Digest;
-use crate::vessel::certificate::{BranchCalibre, SurfaceColumns, Verdict};
 use lumen_message::signed;
 
 /// Compares two surfaces, of any program and resolution: how far apart they are both ways, and each vessel's calibre at the
@@ -41,7 +41,7 @@ pub struct Compare {
     /// Move the surface onto the reference first: "axes" turns it where one is in LPS and the other in RAS, "rigid" turns
     /// and shifts it as they fit best
     #[arg(long, value_name = "HOW")]
-    align: Option<Align>,
+    align: Option<AlignOption>,
     /// The change of a vessel's radius that counts as kept, in percent
     #[arg(long, value_name = "PERCENT", value_parser = percent, default_value_t = Settings::default().tolerance_percent)]
     tolerance: f64,
@@ -69,86 +69,18 @@ pub struct Compare {
 
 /// How the surface is moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Align {
+enum AlignOption {
     Axes,
     Rigid,
 }
 
-/// What was found. The names of the fields are public and stay.
-#[derive(Serialize)]
-struct Told<'a> {
-    disclaimer: &'static str,
-    version: &'static str,
-    reference: Side<'a>,
-    surface: Side<'a>,
-    /// Null where nothing was moved.
-    moved: Option<Moved>,
-    /// Pooled over samples of both.
-    deviation_mm: Deviation,
-    reference_farthest: Farthest,
-    surface_farthest: Farthest,
-    calibre: Calibre<'a>,
-}
-
-/// One of the two surfaces.
-#[derive(Serialize)]
-struct Side<'a> {
-    file: &'a str,
-    sha256: Option<String>,
-    axes: Axes,
-    triangles: usize,
-    vertices: usize,
-    area_mm2: f64,
-    volume_mm3: Option<f64>,
-}
-
-/// How the surface was moved, in the coordinates of the files in mm: turned about the origin, then shifted.
-#[derive(Clone, Copy, Serialize)]
-struct Moved {
-    /// As a quaternion x, y, z, w.
-    rotation: [f64; 4],
-    shift_mm: [f64; 3],
-    /// The angle of the rotation.
-    turned_deg: f64,
-    /// How far its vertices came, on the mean.
-    mean_shift_mm: f64,
-    /// What came of fitting it; null where only axes were turned.
-    fit: Option<Fit>,
-}
-
-/// Root of the mean square distance of the nearest four fifths of the surface's points.
-#[derive(Clone, Copy, Serialize)]
-struct Fit {
-    /// Before, axes turned already.
-    before_mm: f64,
-    /// And after.
-    residual_mm: f64,
-}
-
-/// What became of the vessels.
-#[derive(Serialize)]
-struct Calibre<'a> {
-    tolerance_percent: f64,
-    /// Why nothing was measured.
-    refused: Option<String>,
-    verdict: Option<Verdict>,
-    measured_percent: Option<f64>,
-    branches: Vec<Branch<'a>>,
-}
-
-/// A vessel on both surfaces. Radii and changes are null where nothing was measured.
-#[derive(Serialize)]
-struct Branch<'a> {
-    number: u32,
-    name: &'a str,
-    parent: Option<u32>,
-    length_mm: f64,
-    verdict: Verdict,
-    measured_percent: f64,
-    mean_radius_reference_mm: Option<f64>,
-    mean_radius_surface_mm: Option<f64>,
-    largest_change_percent: Option<f64>,
-    largest_change_at_mm: Option<[f32; 3]>,
+impl From<AlignOption> for Align {
+    fn from(option: AlignOption) -> Self {
+        match option {
+            AlignOption::Axes => Self::Axes,
+            AlignOption::Rigid => Self::Rigid,
+        }
+    }
 }
 
 /// A surface as it was opened.
@@ -181,8 +113,7 @@ impl Compare {
         };
         let reference = open(&self.reference, self.reference_unit)?;
         let mut surface = open(&self.file, self.unit)?;
-        let stand = self.stand(&reference, &surface)?;
-        let moved = self.moved(&reference, &mut surface, stand)?;
+        let moved = self.moved(&reference, &mut surface)?;
 
         let both = [&reference, &surface].map(|opened| Arc::new(opened.imported.mesh.clone()));
         let how = Looking {
@@ -190,8 +121,7 @@ impl Compare {
             tolerance_percent: self.tolerance,
             with_reference_map: self.reference_output.is_some(),
         };
-        let found = worked("Comparing", |yielder| async move { beside(&both[0], &both[1], how, &yielder).await })?;
-        let found = found.context("one of the surfaces has no area: there is nothing to compare")?;
+        let found = worked("Comparing", |yielder| async move { beside(&both[0], &both[1], how, &yielder).await })??;
 
         if let Some(path) = &self.output {
             written(path, &surface.imported, &found.over_surface)?;
@@ -199,23 +129,13 @@ impl Compare {
         if let (Some(path), Some(distances)) = (&self.reference_output, &found.over_reference) {
             written(path, &reference.imported, distances)?;
         }
-        let told = Told {
-            disclaimer: DISCLAIMER,
-            version: env!("CARGO_PKG_VERSION"),
-            reference: side(&self.reference, &reference),
-            surface: side(&self.file, &surface),
-            moved,
-            deviation_mm: found.deviation,
-            reference_farthest: found.farthest[0],
-            surface_farthest: found.farthest[1],
-            calibre: calibre(&found, self.tolerance),
-        };
+        let sides = [side(&self.reference, &reference), side(&self.file, &surface)];
+        let told = BesideReport::new(sides, moved, &found, self.tolerance);
         if let Some(path) = &self.report {
             write_whole(path, serde_json::to_string_pretty(&told)?.as_bytes())?;
         }
         print(&told);
-        let size = reference.imported.report.bounds_mm.diagonal();
-        if self.align != Some(Align::Rigid) && told.deviation_mm.mean > APART * f64::from(size) {
+        if self.align != Some(AlignOption::Rigid) && found.lie_apart(&reference.imported.mesh) {
             eprintln!(
                 "lumen: warning: the surfaces lie {:.1} mm apart on the mean: --align rigid moves the second onto the first",
                 told.deviation_mm.mean
@@ -223,87 +143,54 @@ impl Compare {
         }
         println!("{DISCLAIMER}");
         match (&self.csv, &found.calibre) {
-            (Some(path), Ok(calibre)) => write_whole(path, calibre.csv_of(&COLUMNS).as_bytes()),
+            (Some(path), Ok(_)) => write_whole(path, found.csv().unwrap_or_default().as_bytes()),
             (Some(path), Err(refused)) => bail!("{} is not written, there are no vessels: {refused}", path.display()),
             (None, _) => Ok(()),
         }
     }
 
-    /// What brings the surface, as it was read, to where it stands in the reference's coordinates: files far from the origin
-    /// were moved when they were read, and axes are turned where that is asked for.
-    fn stand(&self, reference: &Opened, surface: &Opened) -> Result<Rigid> {
-        let both = [reference, surface].map(|opened| &opened.imported.report);
-        let [to, from] = both.map(|report| DVec3::from(report.moved_mm));
-        let [onto, axes] = both.map(|report| report.axes);
-        let are_known = onto != Axes::Unknown && axes != Axes::Unknown;
-        if self.align == Some(Align::Axes) && !are_known {
-            return Err(misuse(
-                "which way the axes point is said by one of the files at most: --align rigid finds how they fit",
-            ));
+    /// Moves the surface onto the reference as far as that is asked for.
+    fn moved(&self, reference: &Opened, surface: &mut Opened) -> Result<Option<Moved>> {
+        let both =
+            [reference, surface].map(|opened| (opened.imported.mesh.clone(), FileFrame::from(&opened.imported.report)));
+        let [(_, to), (_, from)] = both;
+        if axes_differ(to, from) && self.align.is_none() {
+            eprintln!(
+                "lumen: warning: the first is in {}, the second in {}: --align axes turns it",
+                to.axes, from.axes
+            );
         }
-        let differ = are_known && onto != axes;
-        if differ && self.align.is_none() {
-            eprintln!("lumen: warning: the first is in {onto}, the second in {axes}: --align axes turns it");
-        }
-        let turned = if differ && self.align.is_some() { Rigid::HALF_TURN } else { Rigid::STILL };
-        Ok(Rigid::shift(-from).then(turned).then(Rigid::shift(to)))
-    }
-
-    /// Moves the surface to where it stands, and onto the reference where that is asked for.
-    fn moved(&self, reference: &Opened, surface: &mut Opened, stand: Rigid) -> Result<Option<Moved>> {
-        let (mut motion, mut fit) = (stand, None);
-        if self.align == Some(Align::Rigid) {
-            let (onto, mut mesh) = (reference.imported.mesh.clone(), surface.imported.mesh.clone());
-            mesh.positions.iter_mut().for_each(|p| *p = stand.of(*p));
-            let found = worked("Aligning", |yielder| async move {
-                let index = SurfaceIndex::new(&onto.positions, &onto.triangles);
-                align(&mesh, &onto, &index, &yielder).await
-            })?;
-            let Aligned { motion: further, before_mm, residual_mm } =
-                found.context("one of the surfaces has no area: there is nothing to align")?;
-            motion = stand.then(further);
-            fit = Some(Fit { before_mm, residual_mm });
-        }
+        let align = self.align.map_or(Align::Still, Align::from);
+        let found = worked("Aligning", move |yielder| async move {
+            let [(reference, to), (surface, from)] = &both;
+            placed((reference, *to), (surface, *from), align, &yielder).await
+        })?;
+        let Placed { motion, moved } = match found {
+            Err(error @ BesideError::AxesUnknown) => {
+                return Err(misuse(format!("{error}: --align rigid finds how they fit")));
+            }
+            found => found?,
+        };
         let Imported { mesh, arrays, report } = &mut surface.imported;
-        // In the coordinates of the files.
-        let [to, from] = [reference.imported.report.moved_mm, report.moved_mm].map(DVec3::from);
-        let in_files = Rigid::shift(from).then(motion).then(Rigid::shift(-to));
-        let mut shifts = 0.0;
-        for p in &mut mesh.positions {
-            let begun = p.as_dvec3() - from;
-            shifts += begun.distance(in_files.moved(begun));
-            *p = motion.of(*p);
-        }
-        report.moved_mm = to.to_array();
-        if fit.is_none() && motion.rotation == DQuat::IDENTITY {
-            return Ok(None);
-        }
-        let onto = reference.imported.report.axes;
-        if fit.is_none() {
-            report.axes.turn(onto, &mut TriMesh::default(), &mut [], arrays)?;
-        } else {
-            let lost = arrays.extract_if(.., |array| io::has_directions(array)).map(|array| array.name);
-            let lost = lost.collect::<Vec<_>>().join(", ");
-            if !lost.is_empty() && self.output.is_some() {
-                eprintln!("lumen: warning: directions do not turn with the surface, these arrays are left out: {lost}");
+        mesh.positions.iter_mut().for_each(|p| *p = motion.of(*p));
+        report.moved_mm = to.moved_mm;
+        match moved {
+            None => return Ok(None),
+            Some(Moved { fit: None, .. }) => report.axes.turn(to.axes, &mut TriMesh::default(), &mut [], arrays)?,
+            Some(_) => {
+                let lost = arrays.extract_if(.., |array| io::has_directions(array)).map(|array| array.name);
+                let lost = lost.collect::<Vec<_>>().join(", ");
+                if !lost.is_empty() && self.output.is_some() {
+                    eprintln!(
+                        "lumen: warning: directions do not turn with the surface, these arrays are left out: {lost}"
+                    );
+                }
             }
         }
-        report.axes = onto;
-        Ok(Some(Moved {
-            rotation: in_files.rotation.to_array(),
-            shift_mm: in_files.shift_mm.to_array(),
-            turned_deg: in_files.angle_deg(),
-            mean_shift_mm: shifts / mesh.positions.len().max(1) as f64,
-            fit,
-        }))
+        report.axes = to.axes;
+        Ok(moved)
     }
 }
-
-/// The surfaces of the table of stations.
-const COLUMNS: [SurfaceColumns; 2] = [("reference", |branch| &branch.opened), ("surface", |branch| &branch.reduced)];
-
-/// From this part of the reference's size on two surfaces are told to lie apart.
-const APART: f64 = 0.05;
 
 /// Writes a surface with its distances.
 fn written(path: &Path, imported: &Imported, distances: &Distances) -> Result<()> {
@@ -321,56 +208,22 @@ fn written(path: &Path, imported: &Imported, distances: &Distances) -> Result<()
     write_whole(path, &io::write_output(&output, format)?)
 }
 
-fn side<'a>(file: &'a str, Opened { imported, digest }: &Opened) -> Side<'a> {
-    let Imported { mesh: TriMesh { positions, triangles }, report, .. } = imported;
-    Side {
-        file,
-        sha256: digest.as_ref().map(ToString::to_string),
-        axes: report.axes,
-        triangles: triangles.len(),
-        vertices: positions.len(),
-        area_mm2: report.area_mm2,
-        volume_mm3: report.volume_mm3,
-    }
+fn side(file: &str, Opened { imported, digest }: &Opened) -> Side {
+    let Imported { mesh, report, .. } = imported;
+    let measures = Measures { area_mm2: report.area_mm2, volume_mm3: report.volume_mm3 };
+    Side::new(file, digest.as_ref().map(ToString::to_string), report.axes, mesh, measures)
 }
 
-fn calibre(found: &Beside, tolerance_percent: f64) -> Calibre<'_> {
-    let certificate = found.calibre.as_ref().ok();
-    Calibre {
-        tolerance_percent,
-        refused: found.calibre.as_ref().err().map(ToString::to_string),
-        verdict: certificate.map(|found| found.verdict),
-        measured_percent: certificate.map(|found| found.coverage.percent()),
-        branches: certificate.map_or_else(Vec::new, |found| found.branches.iter().map(branch).collect()),
-    }
-}
-
-fn branch(of: &BranchCalibre) -> Branch<'_> {
-    Branch {
-        number: of.number,
-        name: &of.name,
-        parent: of.parent,
-        length_mm: of.length_mm,
-        verdict: of.verdict,
-        measured_percent: of.coverage().percent(),
-        mean_radius_reference_mm: of.opened.radius_mm.map(|radius| radius.mean),
-        mean_radius_surface_mm: of.reduced.radius_mm.map(|radius| radius.mean),
-        largest_change_percent: of.reduced.largest_change.map(|change| change.percent),
-        largest_change_at_mm: of.reduced.largest_change.map(|change| change.at_mm),
-    }
-}
-
-fn print(told: &Told<'_>) {
-    let Told { reference, surface, moved, deviation_mm, .. } = told;
+fn print(told: &BesideReport) {
+    let BesideReport { reference, surface, moved, deviation_mm, .. } = told;
     let mut rows = Builder::new();
     rows.push_record(["", "reference", "surface", "change %"]);
-    let count = |what: &str, of: fn(&Side<'_>) -> usize| {
+    let count = |what: &str, of: fn(&Side) -> usize| {
         let [from, to] = [of(reference), of(surface)];
         [what.to_owned(), grouped(from), grouped(to), change(from as f64, to as f64)]
     };
-    let name = |side: &Side<'_>| {
-        Path::new(side.file).file_name().map_or("-".into(), |name| name.to_string_lossy().into_owned())
-    };
+    let name =
+        |side: &Side| Path::new(&side.file).file_name().map_or("-".into(), |name| name.to_string_lossy().into_owned());
     rows.push_record(["file".to_owned(), name(reference), name(surface), String::new()]);
     rows.push_record(count("triangles", |side| side.triangles));
     rows.push_record(count("vertices", |side| side.vertices));

@@ -8,6 +8,7 @@ use super::surfaces::{levels, surface};
 use crate::io::{ImportReport, Warning};
 use crate::mesh::mending::{FaultCounts, FaultPlace};
 use crate::mesh::{TriMesh, Vec3};
+use crate::pipeline::beside::BesideReport;
 use crate::pipeline::deviation::Deviation;
 use crate::pipeline::histogram::Histogram;
 use crate::pipeline::progressive::ProgressiveMesh;
@@ -50,6 +51,42 @@ pub struct Reduced {
     pub mesh: Arc<ProgressiveMesh>,
     /// How many nodes the finest of them uses.
     pub vertices: usize,
+}
+
+/// What came of comparing a surface with another file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FilesCompared {
+    /// That of the command.
+    pub id: u64,
+    /// What was found, or one plain sentence.
+    pub outcome: Result<TwoFiles, String>,
+}
+
+/// A surface beside another file, both in the coordinates in which that was read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TwoFiles {
+    /// What is compared with.
+    #[serde(with = "surface")]
+    pub reference: Arc<TriMesh>,
+    /// What is judged, moved as was asked for.
+    #[serde(with = "surface")]
+    pub surface: Arc<TriMesh>,
+    /// For each vertex of the reference the mean distance of the surface around it, in mm, positive where it lies outside.
+    #[serde(with = "bulk")]
+    pub over_reference: Vec<f32>,
+    /// The same for each vertex of the surface.
+    #[serde(with = "bulk")]
+    pub over_surface: Vec<f32>,
+    /// The numbers.
+    pub report: BesideReport,
+    /// Why no vessels were measured.
+    pub refused: Option<CalibreError>,
+    /// The table of stations, where there are vessels.
+    pub csv: Option<String>,
+    /// Whether they lie so far apart that one of them should be moved.
+    pub lie_apart: bool,
+    /// What looked odd about the reference's file.
+    pub warnings: Vec<Warning>,
 }
 
 /// What came of making a surface ready for a solver.

@@ -6,13 +6,15 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::found::{
-    Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, LevelArrays, Opened, Reduced, SolverReady,
+    Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, FilesCompared, LevelArrays, Opened, Reduced,
+    SolverReady,
 };
 use super::source::Source;
 use super::surfaces::surface;
 use crate::io::{Axes, Format};
 use crate::language::tell;
 use crate::mesh::TriMesh;
+use crate::pipeline::beside::{Align, FileFrame};
 use crate::pipeline::connectivity::Component;
 use crate::pipeline::report::Report;
 use crate::pipeline::safe::Safe;
@@ -22,6 +24,7 @@ use crate::prepare::prepare::Plan;
 use crate::prepare::write::SolverFormat;
 use crate::report::{Heading, ReportFormat};
 use crate::say;
+use crate::sharing::Digest;
 use crate::sharing::measures::Measure;
 use crate::transfer::{bulk, optional};
 use crate::vessel::CentrelineFormat;
@@ -154,6 +157,33 @@ pub enum Command {
         /// What those of the file are to grow towards.
         to: Axes,
     },
+    /// Compare a surface with another file, in place of what was compared so before. Forgotten by a cancel.
+    Beside {
+        /// Comes back with the answer; counted with the generations.
+        id: u64,
+        /// What it is compared with.
+        reference: Source,
+        /// The surface.
+        #[serde(with = "surface")]
+        mesh: Arc<TriMesh>,
+        /// Whose it is.
+        of: Judged,
+        /// How it is moved first.
+        align: Align,
+        /// The change of a vessel's radius that counts as kept, in percent.
+        tolerance_percent: f64,
+    },
+}
+
+/// Whose surface is compared with a file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Judged {
+    /// Its name.
+    pub name: String,
+    /// The hash of its file, where it is as that has it.
+    pub digest: Option<Digest>,
+    /// Where its coordinates lie.
+    pub frame: FileFrame,
 }
 
 /// A picture that was drawn.
@@ -179,6 +209,8 @@ pub enum Work {
     Stage(Stage),
     /// The pipeline at several settings.
     Comparing,
+    /// Comparing a surface with another file.
+    Beside,
     /// Making a level ready for a solver.
     Preparing,
 }
@@ -190,6 +222,7 @@ impl Work {
             Self::Reading => say!("panel-work-reading"),
             Self::Stage(stage) => tell(&stage),
             Self::Comparing => say!("panel-work-comparing"),
+            Self::Beside => say!("reference-work"),
             Self::Preparing => say!("solver-work"),
         }
     }
@@ -307,6 +340,8 @@ pub enum Event {
         /// One plain sentence.
         message: String,
     },
+    /// A surface was compared with another file, or cannot be.
+    Beside(Box<FilesCompared>),
 }
 
 #[cfg(test)]
@@ -375,6 +410,14 @@ mod tests {
             Command::Set { generation: 3, settings: settings.clone() },
             Command::Open { id: 7, source: holed, settings: Settings { mending, ..settings.clone() } },
             Command::Compare { id: 4, settings: vec![settings.clone(), impossible] },
+            Command::Beside {
+                id: 12,
+                reference: Source::Sample { sample: Sample::Aorta, triangles: 10_000 },
+                mesh: small.clone(),
+                of: Judged { name: "s".into(), digest: None, frame: FileFrame::default() },
+                align: Align::Rigid,
+                tolerance_percent: 2.0,
+            },
             Command::Differ { id: 8, first: small.clone(), other: small },
             Command::Average { id: 9, passes: 3 },
             Command::Prepare { id: 10, mesh: tube, plan: Plan::flow() },
@@ -404,6 +447,7 @@ mod tests {
         }
         let expected = [
             "Averaged",
+            "Beside",
             "Cancelled",
             "Certified",
             "Compared",

@@ -9,7 +9,7 @@
 //!   `surfaces`: how the surfaces in them cross; `link`: the line.
 //! - `pipeline_engine`: what is asked, in its order; `current`: the surface that is open; `opening`: a source on its way
 //!   in; `compare`: settings to compare ([`Command::Compare`]), which are worked on while nothing else is to be done;
-//!   `differing`: how far two of them are apart; `preparing`: a level made ready for a solver; `averaging`: plain Laplacian smoothing, to be seen beside the filter;
+//!   `differing`: how far two of them are apart; `beside`: a surface beside another file; `preparing`: a level made ready for a solver; `averaging`: plain Laplacian smoothing, to be seen beside the filter;
 //!   `progress`: how far all this is.
 //! - [`trial`]: the guidewire trial, an engine of its own on a line of its own. It keeps pace with the clock.
 //! - [`scan`]: scans and masks, an engine of its own as well; the surface that it makes is opened as [`Source::Made`].
@@ -17,6 +17,7 @@
 
 mod arrays;
 mod averaging;
+mod beside;
 mod compare;
 mod current;
 mod differing;
@@ -36,11 +37,12 @@ pub mod trial;
 
 pub use self::current::PATIENCE;
 pub use self::found::{
-    Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, LevelArrays, Opened, Ready, Reduced, SolverReady,
+    Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, FilesCompared, LevelArrays, Opened, Ready, Reduced,
+    SolverReady, TwoFiles,
 };
 pub use self::link::Link;
 pub use self::machine::{Machine, SLICE};
-pub use self::message::{Command, Event, Frame, Work};
+pub use self::message::{Command, Event, Frame, Judged, Work};
 pub use self::pipeline_engine::Engine;
 pub use self::source::Source;
 pub use self::trial::TrialEngine;

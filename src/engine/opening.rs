@@ -52,7 +52,7 @@ impl Opening {
     }
 }
 
-async fn read(source: Source, name: &str, yielder: &Yielder) -> Result<Read, String> {
+pub(super) async fn read(source: Source, name: &str, yielder: &Yielder) -> Result<Read, String> {
     let (mesh, format, axes, warnings, threshold) = match source {
         Source::File { bytes, options, .. } => {
             let mut digesting = Digesting::default();

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::averaging::Averaging;
+use super::beside::Besiding;
 use super::compare::Comparing;
 use super::current::Current;
 use super::differing::Differing;
@@ -43,6 +44,8 @@ pub struct Engine {
     pub(super) comparing: Option<Comparing>,
     /// Two of their surfaces that are measured against each other.
     differing: Option<Differing>,
+    /// A surface that is compared with another file.
+    besiding: Option<Besiding>,
     /// Plain Laplacian smoothing, to be seen beside the filter.
     averaging: Option<Averaging>,
     /// A surface on its way to a solver.
@@ -94,6 +97,9 @@ impl Engine {
                 });
             }
             Command::Differ { id, first, other } => self.differing = Some(Differing::new(id, first, other)),
+            Command::Beside { id, reference, mesh, of, align, tolerance_percent } => {
+                self.besiding = Some(Besiding::new(id, reference, mesh, of, (align, tolerance_percent)));
+            }
             Command::Average { id, passes } => self.averaging = Some(Averaging::new(id, passes)),
             Command::Prepare { id, mesh, plan } => self.preparing = Some(Preparing::new(id, mesh, plan)),
             Command::WriteSolver { id, name, format, names } => {
@@ -121,7 +127,7 @@ impl Engine {
     fn cancel(&mut self) {
         self.opening.clear();
         self.reading = None;
-        (self.comparing, self.differing, self.preparing) = (None, None, None);
+        (self.comparing, self.differing, self.preparing, self.besiding) = (None, None, None, None);
         if let Some(current) = &mut self.current {
             current.waiting = None;
             current.pipeline.cancel();
@@ -171,10 +177,14 @@ impl Engine {
 
     /// Whether something beside the settings in force is asked for.
     fn is_asked_more(&self) -> bool {
-        self.preparing.is_some() || self.comparing.is_some() || self.differing.is_some() || self.averaging.is_some()
+        self.preparing.is_some()
+            || self.besiding.is_some()
+            || self.comparing.is_some()
+            || self.differing.is_some()
+            || self.averaging.is_some()
     }
 
-    /// Goes on with a surface for a solver, then with plain Laplacian smoothing, then with the settings to compare, then with
+    /// Goes on with a surface for a solver, then with one beside another file, then with plain Laplacian smoothing, then with the settings to compare, then with
     /// how far apart two surfaces are; whether there is more to do.
     fn compare(&mut self, budget: Budget) -> bool {
         let Some(current) = &self.current else { return false };
@@ -183,6 +193,10 @@ impl Engine {
         if let Some(preparing) = &mut self.preparing {
             if !preparing.advance(budget, &mut self.prepared, events) {
                 self.preparing = None;
+            }
+        } else if let Some(besiding) = &mut self.besiding {
+            if !besiding.advance(budget, events) {
+                self.besiding = None;
             }
         } else if let Some(averaging) = self.averaging.as_mut().filter(|_| can_average) {
             if !averaging.advance(&current.pipeline, budget, events) {
@@ -197,6 +211,7 @@ impl Engine {
         }
         self.comparing.is_some()
             || self.differing.is_some()
+            || self.besiding.is_some()
             || self.preparing.is_some()
             || can_average && self.averaging.is_some()
     }
@@ -300,6 +315,7 @@ impl Engine {
         self.differing.take_if(|differing| differing.id < id);
         self.averaging.take_if(|averaging| averaging.id < id);
         self.preparing.take_if(|preparing| preparing.id < id);
+        self.besiding.take_if(|besiding| besiding.id < id);
         let origin = Origin { digest, import: report.clone(), has_units };
         self.current = Some(Current::new(id, name.clone(), origin, pipeline, milliseconds(since)));
         // What came meanwhile is newer.

@@ -20,6 +20,7 @@ macro_rules! locale {
             include_str!(concat!("../locales/", $tag, "/measure.ftl")),
             include_str!(concat!("../locales/", $tag, "/panel.ftl")),
             include_str!(concat!("../locales/", $tag, "/record.ftl")),
+            include_str!(concat!("../locales/", $tag, "/reference.ftl")),
             include_str!(concat!("../locales/", $tag, "/report.ftl")),
             include_str!(concat!("../locales/", $tag, "/scan.ftl")),
             include_str!(concat!("../locales/", $tag, "/trial.ftl")),

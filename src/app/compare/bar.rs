@@ -11,7 +11,7 @@ use crate::app::action::Action;
 use crate::app::assist::name;
 use crate::app::icon::{self, Icon};
 use crate::app::menus::icon_menu;
-use crate::app::record;
+use crate::app::{record, reference};
 use crate::language::decimal;
 use crate::pipeline::settings::Settings;
 use crate::render::viridis;
@@ -102,6 +102,9 @@ fn others(ui: &mut Ui, comparison: &Comparison, asked: &mut dyn FnMut(Action)) {
     let go = go.on_hover_text(say!("compare-most-help"));
     if let Some((at, height_mm)) = patch.filter(|_| go.clicked()) {
         asked(Action::LookAt { at_mm: at.into(), height_mm });
+    }
+    if ui.button(say!("reference-open")).on_hover_text(say!("reference-open-help")).clicked() {
+        asked(Action::Reference(reference::action::Action::Choose));
     }
     if ui.button(say!("compare-whole")).on_hover_text(say!("compare-whole-help")).clicked() {
         asked(Action::Fit);

@@ -30,7 +30,7 @@ impl Panel for CompareView {
             help: Key("app-compare-help"),
             key: Some(egui::Key::C),
             action: Action::Compare,
-            is_open: now.mode == Mode::Compare,
+            is_open: matches!(now.mode, Mode::Compare | Mode::Reference),
             is_enabled: true,
         })
     }

@@ -66,7 +66,8 @@ impl LumenApp {
             self.panels.all().into_iter().filter_map(|panel| panel.entry(self.now(mode))).collect();
         // A trial ends by its own buttons or by the first tab, not by a click beside it. A surface on its way in may yet give
         // back what it covers.
-        let is_free = matches!(mode, Mode::Method | Mode::Compare | Mode::Solver) && !self.state.awaits_levels();
+        let is_free = matches!(mode, Mode::Method | Mode::Compare | Mode::Reference | Mode::Solver)
+            && !self.state.awaits_levels();
         for entry in entries.iter_mut().filter(|entry| entry.group == Group::Tabs && !entry.is_open) {
             entry.is_enabled &= is_free;
         }
@@ -89,8 +90,7 @@ impl LumenApp {
         if self.panels.trial.trial.is_open() {
             self.act(Action::Trial(trial::Action::Close), ctx);
         }
-        self.state.comparison.set_open(false);
-        self.state.preparation.is_open = false;
+        self.state.leave_modes();
         let beside = match self.beside {
             Beside::Nothing => return,
             Beside::Vessels => Action::Vessels(vessels::Action::Toggle),
@@ -191,6 +191,7 @@ impl LumenApp {
             }
             Action::TakeAway => state.notices.take_away(),
             Action::Open | Action::OpenIn(_) => {
+                state.against.await_file(false);
                 state.next_unit = if let Action::OpenIn(unit) = action { Some(unit) } else { None };
                 self.platform.choose_file(ctx);
             }

@@ -32,6 +32,9 @@ impl LumenApp {
                         Err(error) => self.state.warn(&say!("app-open-failed", name = name, why = error.to_string())),
                     }
                 }
+                PlatformEvent::Chosen { name, bytes } if self.state.takes_reference() => {
+                    self.state.compare_with(name, bytes);
+                }
                 PlatformEvent::Chosen { name, bytes } => {
                     self.leave_scan();
                     // What was asked for last counts.

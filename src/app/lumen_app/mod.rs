@@ -308,6 +308,7 @@ impl eframe::App for LumenApp {
         if !dropped.is_empty() && !self.platform.is_embedded() {
             // The unit was chosen for a file of the dialog.
             self.state.next_unit = None;
+            self.state.against.await_file(false);
             self.platform.read_dropped(dropped, &ctx);
         }
         self.suit_window(&ctx);

@@ -107,8 +107,7 @@ impl Measuring {
             }
             Action::Toggle => {
                 // They stand where the measures do.
-                state.comparison.set_open(false);
-                state.preparation.is_open = false;
+                state.leave_modes();
                 *acting.beside = if acting.in_trial { Beside::Nothing } else { Beside::Measure };
             }
             Action::Take(tool) => self.take_up(tool),

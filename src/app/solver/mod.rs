@@ -53,8 +53,8 @@ impl Panel for SolverView {
             Action::Set(plan) => state.preparation.plan = plan,
             Action::Prepare => state.prepare_for_solver(acting.platform.link()),
             Action::Show(is_open) => {
+                state.leave_modes();
                 state.preparation.is_open = is_open && state.preparation.made.is_some();
-                state.comparison.set_open(false);
             }
             Action::Rename(place, name) => state.preparation.rename(place, &name),
             Action::Save(format) => state.save_for_solver(format, acting.platform.link()),

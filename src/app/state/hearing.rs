@@ -67,6 +67,10 @@ impl State {
                 self.comparison.set_open(self.comparison.is_open() && !self.preparation.is_open);
                 self.rest();
             }
+            Event::Beside(compared) => {
+                self.against.receive(*compared);
+                self.rest();
+            }
             Event::Averaged(averaged) => {
                 let is_awaited = self.averaging.is_some_and(|(id, _)| id == averaged.id);
                 if let Some(document) = self.document.as_mut().filter(|_| is_awaited) {
@@ -136,6 +140,7 @@ impl State {
             Event::Failed { message } => {
                 self.work = None;
                 self.comparison.forget_request();
+                self.against.forget_request();
                 self.warn(&sentence(&message));
             }
         }

@@ -14,6 +14,7 @@ impl State {
         let effect = self.go_back();
         if !is_opening {
             self.comparison.stop(&say!("app-cancelled"));
+            self.against.stop(&say!("app-cancelled"));
             self.preparation.give_up();
             // Whoever has nothing open has nothing to answer.
             if self.engine == Engine::Loaded {
@@ -48,6 +49,7 @@ impl State {
         self.engine = Engine::Empty;
         self.is_cancelling = false;
         self.comparison.forget_request();
+        self.against.forget_request();
         self.preparation.give_up();
         self.load(link);
         self.lost_files()
@@ -75,6 +77,7 @@ impl State {
         let is_too_large = link.is_out_of_memory() && self.opening.is_empty() && !self.awaits_levels();
         self.is_cancelling = false;
         self.comparison.stop(&say!("app-computation-stopped"));
+        self.against.stop(&say!("app-computation-stopped"));
         self.preparation.give_up();
         // It may have been that which it stopped at.
         self.hide_averaged();

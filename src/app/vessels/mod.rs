@@ -84,8 +84,7 @@ impl Panel for Vessels {
                     *acting.beside = Beside::Nothing;
                     acting.then.push(Ask::Unmark);
                 } else {
-                    acting.state.comparison.set_open(false);
-                    acting.state.preparation.is_open = false;
+                    acting.state.leave_modes();
                     *acting.beside = Beside::Vessels;
                 }
             }
@@ -97,8 +96,7 @@ impl Panel for Vessels {
                 }
             }
             Action::ShowUnmeasured => {
-                acting.state.comparison.set_open(false);
-                acting.state.preparation.is_open = false;
+                acting.state.leave_modes();
                 *acting.beside = Beside::Vessels;
                 let found = acting.state.calibre().and_then(|calibre| calibre.found.as_ref().ok());
                 if let Some((branch, station)) = found.and_then(Certificate::least_measured) {

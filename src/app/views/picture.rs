@@ -59,7 +59,7 @@ impl Views {
         measuring.show_cut(ui, &seen);
         self.write(ui, index, rect, &picture, subject, colours);
         if reveals {
-            self.divider.show(ui, rect, index, is_averaged.then(|| before_title(document, keep)));
+            self.divider.show(ui, rect, index, is_averaged.then(|| [before_title(document, keep), say!("views-now")]));
         }
         // Over its words: what is wrong at a place counts more than which side is which.
         self.mark(ui, rect, &picture, document, collapses);

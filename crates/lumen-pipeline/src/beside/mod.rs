@@ -1,8 +1,15 @@
 //! A surface beside a reference that it was not made from by Lumen: another program's, another resolution, another day.
+//! `motion`: how it is moved onto the reference first; `report`: what came of it, for programs.
+
+mod motion;
+mod report;
 
 use std::sync::Arc;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+pub use self::motion::{Align, BesideError, FileFrame, Fit, Moved, Placed, axes_differ, placed};
+pub use self::report::{BesideReport, Branch, Calibre, Side};
 
 use crate::deviation::{Comparing, Deviation, compare};
 use lumen_mesh::task::Yielder;
@@ -22,7 +29,7 @@ pub struct Looking {
 }
 
 /// What is farthest of one surface from the other.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Farthest {
     /// Its distance in mm.
     pub mm: f64,
@@ -62,13 +69,31 @@ pub struct Beside {
     pub calibre: Result<Certificate, CalibreError>,
 }
 
-/// Compares `surface` with `reference`; `None` where one of them has no area.
+/// From this part of the reference's size on two surfaces are told to lie apart.
+const APART: f64 = 0.05;
+
+impl Beside {
+    /// Whether the surfaces lie so far apart, on the mean, that they are hardly of one vessel in one place; `reference` is
+    /// what was compared with.
+    pub fn lie_apart(&self, reference: &TriMesh) -> bool {
+        self.deviation.mean > APART * f64::from(reference.bounds().diagonal())
+    }
+}
+
+/// Compares `surface` with `reference`.
+///
+/// # Errors
+/// Where one of them has no area.
 pub async fn beside(
     reference: &Arc<TriMesh>,
     surface: &Arc<TriMesh>,
     how: Looking,
     yielder: &Yielder,
-) -> Option<Beside> {
+) -> Result<Beside, BesideError> {
+    compared(reference, surface, how, yielder).await.ok_or(BesideError::NoArea)
+}
+
+async fn compared(reference: &Arc<TriMesh>, surface: &Arc<TriMesh>, how: Looking, yielder: &Yielder) -> Option<Beside> {
     let comparing = Comparing { samples: how.samples, with_map: true, ..Comparing::default() };
     let compared = compare(reference, surface, comparing.clone(), &yielder.part(0.0..0.3)).await;
     let (comparison, indices) = (compared.comparison?, compared.indices);
