@@ -20,6 +20,7 @@ mod opening;
 mod presenter;
 mod record;
 mod recovery;
+mod reference;
 mod reveal;
 mod scans;
 mod sharing;
