@@ -143,9 +143,9 @@ mod tests {
         assert!(run(&mut engine).unwrap().outcome.unwrap().lie_apart);
         engine.handle(command(9, file(bytes), away, Align::Rigid));
         let two = run(&mut engine).unwrap().outcome.unwrap();
-        let shift = two.report.moved.expect("a motion").mean_shift_mm;
-        assert!((shift - 100.0 * 3.0_f64.sqrt()).abs() < 0.05 && !two.lie_apart, "{shift}");
-        assert!((two.report.deviation_mm.mean - 1.0).abs() < 0.01 && two.surface.positions[0].length() < 11.1);
+        assert!(two.report.moved.is_some_and(|moved| moved.fit.is_some()) && !two.lie_apart);
+        let middle = two.surface.positions.iter().sum::<Vec3>() / two.surface.positions.len() as f32;
+        assert!(middle.length() < 0.05 && (two.report.deviation_mm.mean - 1.0).abs() < 0.01, "{middle}");
     }
 
     #[test]

@@ -38,6 +38,7 @@ pub use lumen_mesh::task;
 
 /// What translations need of the messages of this crate.
 pub const MESSAGES: &[&[lumen_message::Signature]] = &[
+    beside::BesideError::MESSAGES,
     classes::Class::MESSAGES,
     pinch::PinchMessage::MESSAGES,
     progressive::ShortfallMessage::MESSAGES,

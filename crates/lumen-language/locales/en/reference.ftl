@@ -54,7 +54,7 @@ reference-p95 = Distance, 95 %
 reference-distance-help = Between the two, measured both ways over samples of each
 reference-farthest-reference = Farthest on reference
 reference-farthest-surface = Farthest on surface
-reference-farthest-help = How far the farthest point of it is from the other: no point is farther than { $most } mm, for certain
+reference-farthest-help = How far the farthest point of it is from the other: no point is farther than { $most } mm, for certain
 reference-go = Go there
 reference-go-long = Go there: { $what }
 reference-no-vessels = Calibre: { $why }.
@@ -80,8 +80,3 @@ reference-save-stations-help = Area and radius on both at each place of each ves
 reference-distance-title = Distance from the other
 reference-legend = Distance
 reference-legend-sides = outside red, inside blue
-
-## Why two surfaces cannot be compared: said after a colon, a full stop follows
-
-reference-axes-unknown = which way the axes point is said by one of the files at most
-reference-no-area = one of the surfaces has no area: there is nothing to compare
