@@ -29,6 +29,8 @@ pub enum Action {
     Sample(Sample),
     /// Save the shown level.
     Save(Format),
+    /// Save the level and coarser ones in one file.
+    SaveLevels,
     /// Take the axes of the surface, whose file does not state them, to be these.
     Axes(Axes),
     /// Save surfaces in these axes; `None` for those that they have.

@@ -188,6 +188,8 @@ fn save(ui: &mut Ui, state: &State, shown: Shown<'_>, ask: &mut impl FnMut(bool,
         let unit = say!("app-save-lengths", unit = format.unit().to_string());
         ask(ui.button(text).on_hover_text(unit).clicked(), Action::Save(format));
     }
+    let levels = ui.button(say!("app-save-levels")).on_hover_text(say!("app-save-levels-help"));
+    ask(levels.clicked(), Action::SaveLevels);
     ui.label(RichText::new(say!("app-save-all-lengths")).small().weak());
     axes::written(ui, state, ask);
     ui.separator();

@@ -12,6 +12,7 @@ use super::settings::Asked;
 use super::written::WrittenOptions;
 use crate::io::{self, Format, Imported, Output};
 use crate::pipeline::deviation::REPORT_SAMPLES;
+use crate::pipeline::lod::halved;
 use crate::pipeline::report::{Report, UnitReport};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::verdict::{Finding, Verdict, VerdictReport};
@@ -58,6 +59,7 @@ impl Outputs<'_> {
         let unit = UnitReport { unit: imported.report.unit, by_size: imported.report.unit_by_size };
         let import = imported.report.clone();
         let (axes, to) = self.written.axes(imported.report.axes)?;
+        let has_levels = self.written.has_levels(self.format)?;
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
         if self.written.takes_arrays() {
             pipeline = pipeline.with_arrays(imported.arrays);
@@ -77,9 +79,19 @@ impl Outputs<'_> {
         let left_out = io::left_out(&arrays, self.format).map(|arrays| arrays.to_string());
         let (mut mesh, mut normals) = ((*reduced.mesh).clone(), reduced.normals.clone());
         axes.turn(to, &mut mesh, &mut normals, &mut arrays)?;
-        let normals = self.written.has_normals().then_some(&normals[..]);
-        let output = Output { mesh: &mesh, normals, arrays: &arrays, axes: to };
-        write_whole(self.surface, &io::write_output(&output, self.format)?)?;
+        let mut coarser = match pipeline.progressive() {
+            Some(levels) if has_levels => halved(levels, mesh.triangles.len()),
+            _ => Vec::new(),
+        };
+        coarser.iter_mut().try_for_each(|(mesh, normals)| axes.turn(to, mesh, normals, &mut []))?;
+        let of = |normals| self.written.has_normals().then_some(normals);
+        let finest = Output { mesh: &mesh, normals: of(&normals[..]), arrays: &arrays, axes: to };
+        let coarser =
+            coarser.iter().map(|(mesh, normals)| Output { normals: of(&normals[..]), axes: to, ..Output::new(mesh) });
+        let levels: Vec<Output<'_>> = std::iter::once(finest).chain(coarser).collect();
+        let bytes =
+            if levels.len() > 1 { io::write_levels(&levels)? } else { io::write_output(&levels[0], self.format)? };
+        write_whole(self.surface, &bytes)?;
         let mut report = Report::new(name, &pipeline).context("the pipeline ended without a result")?;
         report.stages_ms.read = read;
         report.axes = to;

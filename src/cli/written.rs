@@ -3,7 +3,7 @@
 use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
 
-use crate::io::Axes;
+use crate::io::{Axes, Format};
 use crate::mesh::Array;
 use crate::mesh::arrays::{Association, Values};
 use crate::pipeline::run::Pipeline;
@@ -24,6 +24,10 @@ pub(super) struct WrittenOptions {
     /// What the file's coordinates grow towards, where it does not say
     #[arg(long, value_name = "AXES", value_enum)]
     axes_in: Option<FileAxes>,
+    /// Write coarser levels too, with a half, a quarter and so on of the triangles, for viewers that know glTF's MSFT_lod:
+    /// GLB alone
+    #[arg(long)]
+    levels: bool,
 }
 
 /// What the coordinates of the output grow towards.
@@ -69,6 +73,17 @@ impl WrittenOptions {
     /// Whether the arrays of the file are carried to the result.
     pub(super) fn takes_arrays(&self) -> bool {
         self.arrays == WhichArrays::All
+    }
+
+    /// Whether coarser levels are written.
+    ///
+    /// # Errors
+    /// Where the format has no place for them.
+    pub(super) fn has_levels(&self, format: Format) -> Result<bool> {
+        if self.levels && format != Format::Glb {
+            bail!("coarser levels stand in GLB alone: let the output end in .glb, or leave out --levels");
+        }
+        Ok(self.levels)
     }
 
     /// Whether normals are written.

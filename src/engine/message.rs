@@ -157,6 +157,15 @@ pub enum Command {
         /// What those of the file are to grow towards.
         to: Axes,
     },
+    /// Turn the newest level of the surface that is open and coarser ones into a GLB file.
+    WriteLevels {
+        /// The name of the file, with extension.
+        name: String,
+        /// What the coordinates of the surface grow towards.
+        axes: Axes,
+        /// What those of the file are to grow towards.
+        to: Axes,
+    },
     /// Compare a surface with another file, in place of what was compared so before. Forgotten by a cancel.
     Beside {
         /// Comes back with the answer; counted with the generations.
@@ -421,6 +430,7 @@ mod tests {
             Command::Differ { id: 8, first: small.clone(), other: small },
             Command::Average { id: 9, passes: 3 },
             Command::Prepare { id: 10, mesh: tube, plan: Plan::flow() },
+            Command::WriteLevels { name: "c.glb".into(), axes: Axes::Lps, to: Axes::Ras },
             Command::WriteSolver { id: 10, name: "c.msh".into(), format: SolverFormat::Msh, names: vec!["w".into()] },
             Command::Cancel,
             Command::Open { id: 6, source: made, settings: settings.clone() },

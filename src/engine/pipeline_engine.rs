@@ -21,6 +21,7 @@ use super::source::Source;
 use crate::io::{self, Axes, Imported, Output};
 use crate::language::{Key, tell};
 use crate::mesh::{TriMesh, Vec3};
+use crate::pipeline::lod::halved;
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Settings;
@@ -112,6 +113,7 @@ impl Engine {
             Command::Cancel => self.cancel(),
             Command::WriteCentrelines { name, format } => self.write_centrelines(name, format),
             Command::WriteLevel { name, format } => self.write_level(name, format),
+            Command::WriteLevels { name, axes, to } => self.write_levels(name, axes, to),
             Command::WriteReport { name, format, heading, axes, measures, pictures } => {
                 self.write_report(name, Asked { format, heading, axes, measures, pictures });
             }
@@ -256,6 +258,29 @@ impl Engine {
                 self.events.push_back(Event::NotWritten { name, message });
             }
         }
+    }
+
+    fn write_levels(&mut self, name: String, axes: Axes, to: Axes) {
+        let has_arrays = self.current.as_ref().is_some_and(|current| current.pipeline.has_arrays());
+        let current = self.current.as_ref().ok_or_else(|| say!("errors-no-result"));
+        let written = current.and_then(|current| {
+            let pipeline = &current.pipeline;
+            let both = pipeline.reduced().zip(pipeline.progressive());
+            let (reduced, levels) = both.ok_or_else(|| say!("errors-no-result"))?;
+            let mut all = vec![((*reduced.mesh).clone(), reduced.normals.clone())];
+            all.extend(halved(levels, reduced.mesh.triangles.len()));
+            let mut turned = all.iter_mut();
+            turned
+                .try_for_each(|(mesh, normals)| axes.turn(to, mesh, normals, &mut []))
+                .map_err(|error| tell(&error))?;
+            let output = |(mesh, normals)| Output { normals: Some(normals), axes: to, ..Output::new(mesh) };
+            let outputs: Vec<_> = all.iter().map(|(mesh, normals)| output((mesh, &normals[..]))).collect();
+            io::write_levels(&outputs).map_err(|error| tell(&error))
+        });
+        self.events.push_back(match written {
+            Ok(bytes) => Event::Written { name, bytes, left_out: has_arrays.then(|| NOT_CARRIED.say()) },
+            Err(message) => Event::NotWritten { name, message },
+        });
     }
 
     fn write_report(&mut self, name: String, asked: Asked) {

@@ -434,3 +434,29 @@ fn the_unit_is_found_by_the_size_where_only_one_would_do() {
     let found: Value = serde_json::from_str(&succeed(&["inspect", &out, "--unit", "auto", "--json"])).unwrap();
     assert_eq!((&found["unit"], &found["unit_by_size"]), (&"mm".into(), &false.into()));
 }
+
+#[test]
+fn a_glb_has_coarser_levels_where_they_are_asked_for_and_other_formats_refuse_them() {
+    let folder = Folder::new("levels");
+    let [plain, levels, stl] = ["plain.glb", "levels.glb", "levels.stl"].map(|name| folder.file(name));
+    let made = |out: &str, more: &[&str]| {
+        lumen(&[&["optimise", "sample:aorta", "-o", out, "--reduction", "90"], more].concat())
+    };
+    assert!(made(&plain, &[]).status.success() && made(&levels, &["--levels"]).status.success());
+    let read = |path: &str| std::fs::read(path).unwrap();
+    let triangles =
+        |bytes: &[u8]| lumen::io::read(bytes, "a.glb", &lumen::io::ImportOptions::default()).unwrap().mesh.triangles;
+    assert_eq!(triangles(&read(&plain)), triangles(&read(&levels)));
+    let bytes = read(&levels);
+    let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+    let told: serde_json::Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
+    let count = |mesh: &serde_json::Value| {
+        let indices = mesh["primitives"][0]["indices"].as_u64().unwrap() as usize;
+        told["accessors"][indices]["count"].as_f64().unwrap()
+    };
+    let counts: Vec<f64> = told["meshes"].as_array().unwrap().iter().map(count).collect();
+    assert!(counts.len() > 2 && counts.windows(2).all(|pair| (pair[1] / pair[0] - 0.5).abs() < 0.01), "{counts:?}");
+    let refused = made(&stl, &["--levels"]);
+    assert!(!refused.status.success() && !std::path::Path::new(&stl).exists());
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("GLB alone"));
+}

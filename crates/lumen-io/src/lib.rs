@@ -112,3 +112,16 @@ pub fn write_output(output: &Output, format: Format) -> Result<Vec<u8>, WriteErr
     output.check()?;
     (format.written().write)(output)
 }
+
+/// The bytes of a surface and coarser levels of it, the finest first, as GLB: viewers that know the extension `MSFT_lod`
+/// show the one that is fine enough, others the finest.
+///
+/// # Errors
+/// [`WriteError`] as [`write_output`].
+pub fn write_levels(levels: &[Output]) -> Result<Vec<u8>, WriteError> {
+    levels.iter().try_for_each(Output::check)?;
+    if levels.is_empty() {
+        return Err(WriteError::Empty);
+    }
+    gltf::write_levels(levels)
+}

@@ -14,6 +14,7 @@ pub mod filter;
 pub mod histogram;
 pub mod laplacian;
 mod lines;
+pub mod lod;
 pub mod normals;
 pub mod one_collapse;
 pub mod paper;

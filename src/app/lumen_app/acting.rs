@@ -202,6 +202,7 @@ impl LumenApp {
                 self.state.open_sample(sample, self.platform.link());
             }
             Action::Save(format) => state.save(format, self.platform.link()),
+            Action::SaveLevels => state.save_levels(self.platform.link()),
             Action::Axes(axes) => self.recovery.choose_axes(state, axes),
             Action::SaveAxes(axes) => state.written_axes = axes,
             Action::Set(settings) => {

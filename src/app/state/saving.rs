@@ -21,6 +21,15 @@ impl State {
         self.ask_for_file(&name.clone(), Command::Write { name, format, mesh, axes, to }, link);
     }
 
+    /// Asks for the newest level and coarser ones in one file.
+    pub fn save_levels(&mut self, link: &mut dyn Link) {
+        let Some(document) = &self.document else { return };
+        let name = format!("{}-levels.glb", document.stem());
+        let axes = document.import.axes;
+        let to = self.written_axes.filter(|_| axes != Axes::Unknown).unwrap_or(axes);
+        self.ask_for_file(&name.clone(), Command::WriteLevels { name, axes, to }, link);
+    }
+
     /// Asks for the centrelines of the surface that is open as a file.
     pub fn save_centrelines(&mut self, format: CentrelineFormat, link: &mut dyn Link) {
         let Some(document) = &self.document else { return };

@@ -57,7 +57,7 @@ impl<'a> Attribute<'a> {
         let shape = ["SCALAR", "VEC2", "VEC3", "VEC4"][self.array.components - 1];
         let normalized = if self.is_colour() && self.scalar.is_whole() { ",\"normalized\":true" } else { "" };
         format!(
-            ",{{\"bufferView\":{view},\"componentType\":{},\"count\":{},\"type\":\"{shape}\"{normalized}}}",
+            "{{\"bufferView\":{view},\"componentType\":{},\"count\":{},\"type\":\"{shape}\"{normalized}}}",
             component.as_gl_enum(),
             self.array.len()
         )

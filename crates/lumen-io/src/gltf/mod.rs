@@ -33,6 +33,7 @@ use super::text;
 use super::unit::Unit;
 
 pub use problem::GltfProblem;
+pub(super) use write::write_levels;
 
 /// GLB in the table of formats.
 pub(super) static BINARY: FileKind = FileKind {

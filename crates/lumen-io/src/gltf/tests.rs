@@ -299,3 +299,41 @@ fn millimetres_survive_the_metre_bit_for_bit() {
         assert_eq!((&raw.positions, &raw.triangles), (&mesh.positions, &mesh.triangles));
     }
 }
+
+#[test]
+fn coarser_levels_stand_beside_the_finest_which_others_read() {
+    let sphere = |n| lumen_mesh::shapes::icosphere(n, 5.0, Vec3::ZERO);
+    let meshes = [sphere(3), sphere(2), sphere(1)];
+    let normals: Vec<Vec<Vec3>> =
+        meshes.iter().map(|mesh| mesh.positions.iter().map(|p| p.normalize()).collect()).collect();
+    let outputs: Vec<_> = meshes
+        .iter()
+        .zip(&normals)
+        .map(|(mesh, normals)| Output { normals: Some(&normals[..]), ..Output::new(mesh) })
+        .collect();
+    let bytes = super::write_levels(&outputs).unwrap();
+    let raw = at_once(read_binary(&bytes, Unit::Metre, DVec3::ZERO, &Pace::never())).unwrap();
+    assert_eq!((&raw.positions, &raw.triangles), (&meshes[0].positions, &meshes[0].triangles));
+    let length = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
+    let json: serde_json::Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
+    // As the extension has it: the finest names the others, and there is a number for each and for itself, smaller and smaller.
+    assert_eq!(json["extensionsUsed"], serde_json::json!(["MSFT_lod"]));
+    assert_eq!(json["nodes"][0]["extensions"]["MSFT_lod"]["ids"], serde_json::json!([1, 2]));
+    assert_eq!(json["nodes"][0]["extras"]["MSFT_screencoverage"], serde_json::json!([0.5, 0.25, 0.125]));
+    assert_eq!(json["scenes"][0]["nodes"], serde_json::json!([0]));
+    for (i, mesh) in meshes.iter().enumerate() {
+        assert_eq!((&json["nodes"][i]["mesh"], &json["nodes"][i]["scale"][0]), (&i.into(), &0.001.into()));
+        let primitive = &json["meshes"][i]["primitives"][0];
+        let accessor = |of: &serde_json::Value| json["accessors"][of.as_u64().unwrap() as usize].clone();
+        assert_eq!(accessor(&primitive["indices"])["count"], 3 * mesh.triangles.len());
+        for name in ["POSITION", "NORMAL"] {
+            let vectors = accessor(&primitive["attributes"][name]);
+            assert_eq!((&vectors["count"], &vectors["type"]), (&mesh.positions.len().into(), &"VEC3".into()));
+        }
+        // Where the first vertex of each stands in the data.
+        let view = accessor(&primitive["attributes"]["POSITION"])["bufferView"].as_u64().unwrap() as usize;
+        let offset = json["bufferViews"][view]["byteOffset"].as_u64().unwrap_or(0) as usize;
+        let x = f32::from_le_bytes(bytes[28 + length + offset..][..4].try_into().unwrap());
+        assert_eq!(x, mesh.positions[0].x);
+    }
+}

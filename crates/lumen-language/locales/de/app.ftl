@@ -52,6 +52,8 @@ app-split-view = Geteilte Ansicht
 ## The menu "Save"
 
 app-save-lengths = Längen in { $unit }
+app-save-levels = GLB mit Stufen...
+app-save-levels-help = Die Stufe und gröbere, mit der Hälfte, einem Viertel und so weiter ihrer Dreiecke, für Betrachter, die MSFT_lod von glTF kennen
 app-save-all-lengths = Längen in mm; bei glTF in m
 app-save-settings = Einstellungen...
 app-save-settings-help = Für alle, die dieselbe Datei haben, und für lumen optimise --settings; wird wie eine Oberfläche geöffnet

@@ -60,6 +60,8 @@ app-split-view = Split view
 
 # $unit: "mm" or "m".
 app-save-lengths = Lengths in { $unit }
+app-save-levels = GLB with levels...
+app-save-levels-help = The level and coarser ones, with a half, a quarter and so on of its triangles, for viewers that know glTF's MSFT_lod
 app-save-all-lengths = Lengths in mm; in m for glTF
 app-save-settings = Settings...
 app-save-settings-help = For whoever has the same file, and for lumen optimise --settings; opened as a surface is

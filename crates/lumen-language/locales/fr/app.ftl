@@ -52,6 +52,8 @@ app-split-view = Vue partagée
 ## The menu "Save"
 
 app-save-lengths = Longueurs en { $unit }
+app-save-levels = GLB à niveaux...
+app-save-levels-help = Le niveau et de plus grossiers, avec la moitié, le quart, etc. de ses triangles, pour les logiciels qui connaissent MSFT_lod de glTF
 app-save-all-lengths = Longueurs en mm ; en m pour glTF
 app-save-settings = Réglages...
 app-save-settings-help = Pour qui a le même fichier, et pour lumen optimise --settings ; s'ouvre comme une surface
