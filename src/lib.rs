@@ -45,7 +45,7 @@ pub mod desktop;
 pub mod engine;
 pub mod report;
 pub mod sharing;
-#[cfg(test)]
+#[cfg(all(test, feature = "languages"))]
 mod translations;
 
 pub use lumen_haptics as haptics;
@@ -90,3 +90,8 @@ pub mod prelude {
     pub use lumen_trial::setup::Setup;
     pub use lumen_vessel::phantom::Sample;
 }
+
+/// What README.md shows compiles, and runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -8,7 +8,7 @@ use fluent_bundle::{FluentArgs, FluentResource, FluentValue};
 use super::digits;
 use super::languages::Language;
 
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(all(feature = "built-in", not(target_arch = "wasm32")))]
 macro_rules! locale {
     ($tag:literal) => {
         &[
@@ -39,7 +39,7 @@ const ENGLISH: &[&str] = &[include_str!(concat!(env!("OUT_DIR"), "/english.ftl")
 /// They, taken apart once for all threads: that takes two megabytes.
 pub(super) static IN_ENGLISH: LazyLock<Catalogue> = LazyLock::new(|| Catalogue::new(Language::English, ENGLISH));
 
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(all(feature = "built-in", not(target_arch = "wasm32")))]
 pub(super) fn built_in(language: Language) -> Option<&'static [&'static str]> {
     Some(match language {
         Language::English => ENGLISH,
@@ -48,7 +48,7 @@ pub(super) fn built_in(language: Language) -> Option<&'static [&'static str]> {
     })
 }
 
-#[cfg(target_arch = "wasm32")]
+#[cfg(not(all(feature = "built-in", not(target_arch = "wasm32"))))]
 pub(super) fn built_in(language: Language) -> Option<&'static [&'static str]> {
     (language == Language::English).then_some(ENGLISH)
 }
