@@ -167,6 +167,7 @@ async function start() {
       fetchModule(at("lumen-web_bg.wasm"), total),
       import(at("store.js")),
       import(at("drop.js")),
+      import(at("video.js")),
     ]);
   } catch (error) {
     return showFailed(`The program could not be downloaded: ${error.message}`);

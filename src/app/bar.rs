@@ -45,6 +45,8 @@ pub(super) struct Shown<'a> {
     pub(super) language: Option<Language>,
     /// What is chosen for reports and pictures.
     pub(super) record: record::Chosen,
+    /// Whether videos can be made.
+    pub(super) has_video: bool,
 }
 
 impl Shown<'_> {
@@ -200,7 +202,7 @@ fn save(ui: &mut Ui, state: &State, shown: Shown<'_>, ask: &mut impl FnMut(bool,
         }
     });
     ui.separator();
-    if let Some(asked) = record::menu(ui, shown.record, state.calibre().is_some()) {
+    if let Some(asked) = record::menu(ui, shown.record, state.calibre().is_some(), shown.has_video) {
         ask(true, Action::Record(asked));
     }
     ui.separator();

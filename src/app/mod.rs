@@ -127,7 +127,7 @@ pub use self::notices::{Kind as NoticeKind, Notice, Notices};
 pub use self::options::{Colours, FaultShown, ViewOptions};
 pub use self::platform::{
     Devices, Engines, FOLLOW_S, Files, Gamepad, Hands, Languages, Listing, OTHER_ENDINGS, Offer, Platform,
-    PlatformEvent, SHAKE_MS, Screen, Sharing, Sound, Storage, Store, Tone, Waker,
+    PlatformEvent, SHAKE_MS, Screen, Sharing, Sound, Storage, Store, Tone, Video, Waker,
 };
 #[cfg(not(target_arch = "wasm32"))]
 pub use self::portrait::report_pictures;

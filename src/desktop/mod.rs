@@ -22,7 +22,7 @@ use self::thread::ThreadLink;
 pub use self::window::{run, run_on};
 use crate::app::{
     self, Devices, Engines, Files, Hands, Languages, Offer, Platform, PlatformEvent, Screen, Sharing, Storage, Tone,
-    Waker,
+    Video, Waker,
 };
 use crate::engine::scan::ScanLink;
 use crate::engine::trial::{HapticChannel, TrialLink};
@@ -117,6 +117,8 @@ impl Files for Desktop {
         files::save_pair(pair, self.sender.clone(), self.waker.clone());
     }
 }
+
+impl Video for Desktop {}
 
 impl Storage for Desktop {}
 

@@ -44,5 +44,6 @@ pub use self::link::Link;
 pub use self::machine::{Machine, SLICE};
 pub use self::message::{Command, Event, Frame, Judged, Work};
 pub use self::pipeline_engine::Engine;
+pub use self::record::PAUSE_MS;
 pub use self::source::Source;
 pub use self::trial::TrialEngine;

@@ -60,7 +60,7 @@ pub(super) fn report(name: &str, pipeline: &Pipeline, origin: &Origin, asked: As
 }
 
 /// How long a frame of several is seen, in ms.
-const PAUSE_MS: u16 = 80;
+pub const PAUSE_MS: u16 = 80;
 
 /// A picture on its way, frame by frame.
 #[derive(Default)]

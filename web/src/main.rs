@@ -5,7 +5,7 @@
 //! - [`twins`]: the controls' twins in the page, for assistive tools and tests.
 //! - [`platform`]: what the app asks of a browser, with [`files`], the file dialog and downloads, and [`store`], what
 //!   outlives the page; [`address`]: what stands after `?` in the page's.
-//! - [`hid`]: haptic devices, asked for in the page and served in the trial's Worker; [`sound`]: a tone in place of a force.
+//! - [`hid`]: haptic devices, asked for in the page and served in the trial's Worker; [`sound`]: a tone in place of a force; [`video`]: frames as a video.
 //! - [`texts`]: the messages of other languages than English.
 //! - [`worker`]: the page's end of the line to a Worker, whose other end is the crate `lumen-worker`'s; [`job`]: which engines
 //!   have one; [`link`]: that line as the app's line to the engine; [`scans`]: that of scans, another program's.
@@ -41,6 +41,8 @@ mod store;
 #[cfg(target_arch = "wasm32")]
 mod texts;
 mod twins;
+#[cfg(target_arch = "wasm32")]
+mod video;
 #[cfg(target_arch = "wasm32")]
 mod worker;
 

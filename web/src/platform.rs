@@ -7,11 +7,11 @@ use std::rc::Rc;
 
 use lumen::app::{
     Devices as AppDevices, Engines, Files, Gamepad, Hands, Languages, Listing, OTHER_ENDINGS, Offer, Platform,
-    PlatformEvent, Screen, Sharing, Sound, Storage, Store, Tone, Waker,
+    PlatformEvent, Screen, Sharing, Sound, Storage, Store, Tone, Video, Waker,
 };
-use lumen::engine::Link;
 use lumen::engine::scan::ScanLink;
 use lumen::engine::trial::TrialLink;
+use lumen::engine::{Frame, Link};
 use lumen::haptics::service::{DeviceCommand, DeviceStatus};
 use lumen::io::{Format, may_be_volume};
 use lumen::language::{Language, decimal};
@@ -26,7 +26,7 @@ use crate::job::{Pipeline, Trial};
 use crate::link::WorkerLink;
 use crate::scans::{self, ScanLine};
 use crate::texts::AllTexts;
-use crate::{address, files, store};
+use crate::{address, files, store, video};
 
 /// By what the page's field for what is typed is found.
 pub(crate) const TYPED: &str = "typed";
@@ -291,6 +291,26 @@ impl Files for Browser {
             Err(message) => PlatformEvent::Failed { message },
         };
         self.news()(event);
+    }
+}
+
+impl Video for Browser {
+    fn has_video(&self) -> bool {
+        video::is_there()
+    }
+
+    fn offer_video(&mut self, name: &str, frames: Vec<Frame>, pause_ms: u16) {
+        let (name, tell) = (name.to_owned(), self.news());
+        spawn_local(async move {
+            let saved = match video::recorded(frames, pause_ms).await {
+                Ok(bytes) => save(&name, &bytes),
+                Err(sentence) => Err(sentence),
+            };
+            tell(match saved {
+                Ok(()) => PlatformEvent::Saved { message: say!("scan-saved", name = name) },
+                Err(message) => PlatformEvent::Failed { message },
+            });
+        });
     }
 }
 

@@ -98,7 +98,7 @@ mod tests {
         for (name, hash) in files {
             assert_eq!(*hash, sha256(&std::fs::read(dist.join(name)).unwrap()), "{name}");
         }
-        let page = ["index.html", "boot.js", "drop.js", "store.js", "worker.js", "style.css"];
+        let page = ["index.html", "boot.js", "drop.js", "store.js", "video.js", "worker.js", "style.css"];
         for name in page.into_iter().chain(["lumen-web.js", "lumen-web_bg.wasm", "lumen-scan.js"]) {
             assert!(files.contains_key(name), "{name}");
         }

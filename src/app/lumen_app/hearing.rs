@@ -9,7 +9,7 @@ use crate::app::scan::{self, Told};
 use crate::app::sharing::{self, Sharing};
 use crate::app::state::{Effect, State};
 use crate::app::{keys, large, lesson, recovery, verdict};
-use crate::engine::Source;
+use crate::engine::{PAUSE_MS, Source};
 use crate::io::ThresholdReport;
 use crate::language::{decimal, tell};
 use crate::pipeline::verdict::Verdict;
@@ -184,7 +184,9 @@ impl LumenApp {
         if let Some(file) = PlotFile::take(ctx) {
             self.record.save_plot(&file, &mut self.state, &mut *self.platform, ctx);
         }
-        self.record.follow(&mut self.state, self.platform.link());
+        if let Some((name, frames)) = self.record.follow(&mut self.state, self.platform.link()) {
+            self.platform.offer_video(&name, frames, PAUSE_MS);
+        }
         let now = recovery::Now {
             state: &self.state,
             trial: &self.panels.trial.trial,

@@ -38,6 +38,7 @@ impl LumenApp {
                     has_links: self.has_links,
                     language: self.speech.chosen(),
                     record: self.record.chosen(),
+                    has_video: self.platform.has_video(),
                 };
                 bar::top(ui, &self.state, &self.views, shown, &mut asked);
             });

@@ -1,5 +1,7 @@
 //! Files that come and go, and what outlives the app.
 
+use crate::engine::Frame;
+
 /// What files end in that are no surfaces, and are opened like them: a trial's log, settings, a lesson.
 pub const OTHER_ENDINGS: [&str; 3] = ["csv", "json", "lesson"];
 
@@ -21,6 +23,17 @@ pub trait Files {
     /// Gives the user a file and one that belongs to it: a save dialog for the first, beside which the second goes under
     /// the same stem, or two downloads.
     fn offer_pair(&mut self, pair: [Offer; 2], ctx: &egui::Context);
+}
+
+/// Videos of frames that the app has drawn.
+pub trait Video {
+    /// Whether there can be one.
+    fn has_video(&self) -> bool {
+        false
+    }
+
+    /// Makes a video of frames of one size, each of which is seen for so long, and gives it to the user.
+    fn offer_video(&mut self, _name: &str, _frames: Vec<Frame>, _pause_ms: u16) {}
 }
 
 /// A file for the user.

@@ -1,6 +1,6 @@
 //! What the app needs of the machine it runs on. The desktop, the browser and the memory of tests each have one.
 //!
-//! A trait for each concern, with defaults where a platform may lack it: [`Engines`], [`Files`] and [`Storage`]
+//! A trait for each concern, with defaults where a platform may lack it: [`Engines`], [`Files`], [`Video`] and [`Storage`]
 //! (`files`), [`Screen`], [`Sharing`] and [`Languages`] (`screen`), [`Hands`] and [`Sound`] (`hands`). [`Platform`] is
 //! all of them.
 
@@ -10,7 +10,7 @@ mod screen;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-pub use self::files::{Files, OTHER_ENDINGS, Offer, Storage, Store};
+pub use self::files::{Files, OTHER_ENDINGS, Offer, Storage, Store, Video};
 pub use self::hands::{Devices, FOLLOW_S, Gamepad, Hands, Listing, SHAKE_MS, Sound, Tone};
 pub use self::screen::{Languages, Screen, Sharing};
 use crate::engine::Link;
@@ -19,7 +19,7 @@ use crate::engine::trial::TrialLink;
 use crate::language::Language;
 
 /// A platform. Nothing here blocks: what takes time arrives through [`Platform::poll`].
-pub trait Platform: Engines + Files + Storage + Screen + Sharing + Languages + Hands + Sound {
+pub trait Platform: Engines + Files + Video + Storage + Screen + Sharing + Languages + Hands + Sound {
     /// The app goes on in another window: whatever has news wakes this one from now on.
     fn enter(&mut self, ctx: &egui::Context);
 

@@ -17,6 +17,8 @@ pub enum Action {
     Clear(bool),
     /// Save the surface as it turns.
     Turntable,
+    /// The same as a video.
+    Video,
     /// Save the surface as it is reduced and comes back.
     Film,
     /// Save what is compared, as a picture.

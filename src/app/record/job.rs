@@ -77,6 +77,8 @@ enum What {
     Frames {
         is_film: bool,
     },
+    /// Frames of a video, which the platform makes.
+    Video(Vec<Frame>),
 }
 
 /// Pictures on their way to a file.
@@ -184,6 +186,23 @@ impl Job {
         Self::new(device, What::Frames { is_film: false }, format!("{}-turntable.png", document.stem()), shots)
     }
 
+    /// The same as a video.
+    pub(super) fn video(
+        device: &egui_wgpu::RenderState,
+        document: &Document,
+        keep: Keep,
+        sight: &Sight<'_>,
+    ) -> Result<Self, JobError> {
+        let job = Self::turntable(device, document, keep, sight)?;
+        let name = format!("{}-turntable.webm", document.stem());
+        Ok(Self { what: What::Video(Vec::new()), name, ..job })
+    }
+
+    /// The name and the frames of a video, where that was drawn.
+    pub(super) fn into_video(self) -> Option<(String, Vec<Frame>)> {
+        if let What::Video(frames) = self.what { Some((self.name, frames)) } else { None }
+    }
+
     /// The surface as it is reduced to one triangle in a thousand and comes back, as the first view looks at it, each triangle
     /// with its own normal.
     pub(super) fn film(
@@ -215,7 +234,7 @@ impl Job {
         let what = match self.what {
             What::Report { .. } => say!("record-drawing-report"),
             What::Picture { .. } => say!("record-drawing-picture"),
-            What::Frames { is_film: false } => say!("record-drawing-turntable"),
+            What::Frames { is_film: false } | What::Video(_) => say!("record-drawing-turntable"),
             What::Frames { is_film: true } => say!("record-drawing-film"),
         };
         (what, (self.count - self.shots.len()) as f32 / self.count.max(1) as f32)
@@ -258,7 +277,8 @@ impl Job {
 
     /// A picture has come back.
     fn take(&mut self, caption: String, picture: Picture, state: &mut State, link: &mut dyn Link) {
-        match &self.what {
+        match &mut self.what {
+            What::Video(frames) => frames.push(frame(String::new(), pixels(picture))),
             What::Frames { .. } => {
                 let frame = frame(String::new(), pixels(picture));
                 self.send(frame, FRAMES, false, state, link);
@@ -293,7 +313,7 @@ impl Job {
                     self.send(frame(String::new(), pixels), 1, is_clear, state, link);
                 }
             }
-            What::Frames { .. } => {}
+            What::Frames { .. } | What::Video(_) => {}
         }
     }
 

@@ -10,7 +10,7 @@ use crate::report::ReportFormat;
 use crate::say;
 
 /// Shows them; a report waits for the vessels. Returns what was clicked.
-pub(in crate::app) fn menu(ui: &mut Ui, mut chosen: Chosen, is_measured: bool) -> Option<Action> {
+pub(in crate::app) fn menu(ui: &mut Ui, mut chosen: Chosen, is_measured: bool, has_video: bool) -> Option<Action> {
     let mut asked = None;
     ui.add_enabled_ui(is_measured, |ui| {
         if ui.button(say!("record-report")).on_hover_text(say!("record-report-help")).clicked() {
@@ -31,6 +31,9 @@ pub(in crate::app) fn menu(ui: &mut Ui, mut chosen: Chosen, is_measured: bool) -
     });
     if ui.button(say!("record-turntable")).on_hover_text(say!("record-turntable-help")).clicked() {
         asked = Some(Action::Turntable);
+    }
+    if has_video && ui.button(say!("record-video")).on_hover_text(say!("record-video-help")).clicked() {
+        asked = Some(Action::Video);
     }
     asked
 }

@@ -15,7 +15,7 @@ use super::platform::Files;
 use super::plot_file::{PlotFile, PlotFormat};
 use super::state::State;
 use super::views::Views;
-use crate::engine::Link;
+use crate::engine::{Frame, Link};
 use crate::render::Style;
 use crate::report::Heading;
 use crate::say;
@@ -102,7 +102,7 @@ impl Record {
                     Err(sentence) => state.warn(&sentence),
                 }
             }
-            Action::Report(_) | Action::Picture(_) | Action::Turntable | Action::Film => {
+            Action::Report(_) | Action::Picture(_) | Action::Turntable | Action::Video | Action::Film => {
                 self.cancel(state);
                 let Some(document) = state.document.as_ref().filter(|document| document.shown.is_some()) else {
                     state.tell(&say!("record-nothing"));
@@ -144,6 +144,7 @@ impl Record {
             }
             Action::Picture(scale) => Job::picture(device, document, sight, scale, self.chosen),
             Action::Film => Job::film(device, document, sight),
+            Action::Video => Job::video(device, document, state.settings.keep, sight),
             _ => Job::turntable(device, document, state.settings.keep, sight),
         };
         begun.map_err(|error| say!("record-cannot-draw", why = error.to_string()))
@@ -161,8 +162,9 @@ impl Record {
         }
     }
 
-    /// To be called each frame: takes what was drawn and draws what comes next.
-    pub(super) fn follow(&mut self, state: &mut State, link: &mut dyn Link) {
+    /// To be called each frame: takes what was drawn and draws what comes next. Returns the name and the frames of a video that
+    /// is to be made.
+    pub(super) fn follow(&mut self, state: &mut State, link: &mut dyn Link) -> Option<(String, Vec<Frame>)> {
         self.plots.retain(|plot| match plot.advance(state, link) {
             Ok(is_done) => !is_done,
             Err(sentence) => {
@@ -170,14 +172,14 @@ impl Record {
                 false
             }
         });
-        let Some(job) = &mut self.job else { return };
-        match job.advance(state, link) {
-            Ok(true) => self.job = None,
+        match self.job.as_mut()?.advance(state, link) {
+            Ok(true) => return self.job.take()?.into_video(),
             Ok(false) => {}
             Err(sentence) => {
                 self.cancel(state);
                 state.warn(&sentence);
             }
         }
+        None
     }
 }

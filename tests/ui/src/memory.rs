@@ -7,11 +7,11 @@ use std::time::Duration;
 
 use lumen::app::{
     Engines, Files, Gamepad, Hands, Languages, Offer, Platform, PlatformEvent, Screen, Sharing, Sound, Storage, Store,
-    Tone,
+    Tone, Video,
 };
 use lumen::engine::scan::{ScanCommand, ScanEngine, ScanEvent, ScanLink};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
-use lumen::engine::{Command, Event, Link, Machine, TrialEngine};
+use lumen::engine::{Command, Event, Frame, Link, Machine, TrialEngine};
 
 use crate::first::{FirstEngine, SLICE};
 
@@ -20,6 +20,9 @@ use crate::first::{FirstEngine, SLICE};
 pub struct Memory {
     /// Files that the app offered.
     pub offered: Vec<(String, Vec<u8>)>,
+    /// Whether videos can be made, and the frames of the last: width, height and pixels of each.
+    pub has_video: bool,
+    pub video: Vec<(u32, u32, Vec<u8>)>,
     /// How many of them were offered two at a time.
     pub pairs: usize,
     /// How often the app asked for a file.
@@ -278,6 +281,18 @@ impl Files for MemoryPlatform {
         let mut memory = self.memory.borrow_mut();
         memory.pairs += 1;
         memory.offered.extend(pair.map(|offer| (offer.name, offer.bytes)));
+    }
+}
+
+impl Video for MemoryPlatform {
+    fn has_video(&self) -> bool {
+        self.memory.borrow().has_video
+    }
+
+    fn offer_video(&mut self, name: &str, frames: Vec<Frame>, pause_ms: u16) {
+        let mut memory = self.memory.borrow_mut();
+        memory.offered.push((name.to_owned(), pause_ms.to_string().into_bytes()));
+        memory.video = frames.into_iter().map(|frame| (frame.width, frame.height, frame.rgba)).collect();
     }
 }
 

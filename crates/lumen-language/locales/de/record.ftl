@@ -11,6 +11,9 @@ record-clear = Hintergrund transparent
 record-clear-help = Nichts hinter der Oberfläche, um sie über anderes zu legen
 record-turntable = Drehung (APNG)...
 record-turntable-help = Die Oberfläche dreht sich einmal, als bewegtes Bild; die Farben sind die der Ansicht
+record-video = Drehung als Video (WebM)...
+record-video-help = Eine Umdrehung der Oberfläche, für Folien; sie wird aufgenommen, während sie läuft, in etwa 4 s
+record-no-video = Der Browser konnte das Video nicht aufnehmen.
 
 ## Ein Diagramm als Datei
 

@@ -12,6 +12,9 @@ record-clear = Transparent background
 record-clear-help = Nothing behind the surface, to lay it over something else
 record-turntable = Turntable (APNG)...
 record-turntable-help = The surface turning once, as a picture that moves; the colours are those of the view
+record-video = Turntable as video (WebM)...
+record-video-help = One turn of the surface, for slides; it is recorded as it plays, in some 4 s
+record-no-video = The browser could not record the video.
 
 ## A plot as a file
 

@@ -11,6 +11,9 @@ record-clear = Fond transparent
 record-clear-help = Rien derrière la surface, pour la poser sur autre chose
 record-turntable = Rotation (APNG)...
 record-turntable-help = La surface fait un tour, en image animée ; les couleurs sont celles de la vue
+record-video = Rotation en vidéo (WebM)...
+record-video-help = Un tour de la surface, pour des diapositives ; il est enregistré pendant qu'il passe, en 4 s environ
+record-no-video = Le navigateur n'a pas pu enregistrer la vidéo.
 
 ## Un graphique en fichier
 

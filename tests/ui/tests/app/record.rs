@@ -180,6 +180,19 @@ fn a_turntable_turns_once_and_can_be_cancelled() {
     assert!(frames[0] != frames[12] && frames[12] != frames[24] && frames[24] != frames[36]);
     assert!(bytes.len() < 8_000_000, "{} bytes", bytes.len());
     println!("the turntable takes {} bytes", bytes.len());
+    // The same frames as a video, where the platform can make one.
+    menu(&mut harness);
+    assert!(harness.query_by_label("Turntable as video (WebM)...").is_none());
+    memory.borrow_mut().has_video = true;
+    harness.run_steps(3);
+    click(&mut harness, "Turntable as video (WebM)...");
+    let (name, pause_ms) = offered(&mut harness, &memory);
+    assert_eq!((name.as_str(), &pause_ms[..]), ("abdominal-aorta-turntable.webm", &b"80"[..]));
+    let video = &memory.borrow().video;
+    let [width, height] = [found.info().width, found.info().height];
+    assert!(video.len() == 48 && video.iter().all(|frame| (frame.0, frame.1) == (width, height)));
+    let of_video = |i: usize| video[i].2.as_chunks::<4>().0.iter().flat_map(|pixel| &pixel[..3]).copied();
+    assert!([0, 12, 24, 36].into_iter().all(|i| of_video(i).eq(frames[i].iter().copied())));
 }
 
 #[test]
