@@ -39,7 +39,10 @@ fn values<'py>(py: Python<'py>, message: &dyn Message) -> PyResult<Bound<'py, Py
 
 /// The exception for a file that cannot be read or written: Python makes it `FileNotFoundError` and the like.
 pub(crate) fn unusable(error: &std::io::Error, path: &Path) -> PyErr {
-    PyOSError::new_err((error.raw_os_error(), error.to_string(), path.to_owned()))
+    let text = error.to_string();
+    // Python writes the number itself.
+    let text = text.split(" (os error").next().unwrap_or_default().to_owned();
+    PyOSError::new_err((error.raw_os_error(), text, path.to_owned()))
 }
 
 /// A report as Python has JSON: dictionaries and lists.

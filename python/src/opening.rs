@@ -71,7 +71,9 @@ pub(crate) fn read(
     let read = match files {
         Ok(_) if unit.is_some() => return Err(PyTypeError::new_err("a scan is in millimetres: it takes no unit")),
         Err(_) if is_chosen => {
-            return Err(PyTypeError::new_err("threshold, label and seed are for scans and masks, and this is a surface"));
+            return Err(PyTypeError::new_err(
+                "threshold, label and seed are for scans and masks, and this is a surface",
+            ));
         }
         Ok(files) => worked(py, |yielder| async move { scan(&files, wanted, &yielder).await })?,
         Err(mut files) => {

@@ -69,7 +69,8 @@ pub(crate) fn optimised(
         pipeline.set(settings).map_err(|error| refused(py, &error))?;
         teller.run(py, &mut pipeline)?;
     }
-    let report = told(py, &summed_up(surface, &pipeline, &import).ok_or_else(unfinished)?)?.cast_into::<PyDict>()?.unbind();
+    let report =
+        told(py, &summed_up(surface, &pipeline, &import).ok_or_else(unfinished)?)?.cast_into::<PyDict>()?.unbind();
     teller.tell("", 1.0)?;
     Ok(Optimised {
         smoothed: pipeline.smoothed().ok_or_else(unfinished)?.clone(),

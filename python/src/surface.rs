@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use lumen::io::{self, Axes, Format, ImportReport, Imported, Unit, UnknownUnit, import_arrays, import_mesh, in_english};
+use lumen::io::{
+    self, Axes, Format, ImportReport, Imported, Unit, UnknownUnit, import_arrays, import_mesh, in_english,
+};
 use lumen::mesh::{Array, TriMesh, Vec3};
 use lumen::phantom::Sample;
 use lumen::trial::course::Course;
@@ -60,12 +62,7 @@ impl Surface {
 impl Surface {
     #[new]
     #[pyo3(signature = (points, triangles, *, unit="mm"))]
-    fn new(
-        py: Python<'_>,
-        points: &Bound<'_, PyAny>,
-        triangles: &Bound<'_, PyAny>,
-        unit: &str,
-    ) -> PyResult<Self> {
+    fn new(py: Python<'_>, points: &Bound<'_, PyAny>, triangles: &Bound<'_, PyAny>, unit: &str) -> PyResult<Self> {
         let unit: Unit = unit.parse().map_err(|error: UnknownUnit| refused(py, &error))?;
         let mesh = arrays::mesh(points, triangles)?;
         let imported = worked(py, |yielder| async move { import_arrays(mesh, unit, &yielder).await })?;

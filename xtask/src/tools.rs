@@ -85,6 +85,12 @@ pub(crate) fn read_back_python(folder: &Path) -> Result<PathBuf> {
     python(folder, "tests/formats/requirements.txt", "Install VTK, trimesh and meshio with pip (a minute, once)")
 }
 
+/// A Python with what `python/tests/requirements.txt` asks for.
+pub(crate) fn package_python() -> Result<PathBuf> {
+    let folder = target().join("python");
+    python(&folder, "python/tests/requirements.txt", "Install numpy, pytest and gymnasium with pip (seconds, once)")
+}
+
 /// A Python with what the list `asked` of the checkout asks for, in a virtual environment below `folder`.
 fn python(folder: &Path, asked: &str, what: &str) -> Result<PathBuf> {
     let asked = root().join(asked);
