@@ -153,6 +153,7 @@ impl Surface {
     }
 
     /// Writes it: the ending of `path` is the format. It is there whole or not at all.
+    #[allow(clippy::needless_pass_by_value, reason = "Python gives it away")]
     pub(crate) fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let format = output_format(&path)?;
         let bytes = py.detach(|| self.written(format)).map_err(|error| refused(py, &error))?;

@@ -1,7 +1,8 @@
 //! The tests beside this file that are written in Python, as one of Cargo's: by the Python that `LUMEN_PYTHON` names, which has
 //! what `requirements.txt` asks for. `cargo xtask test` makes one; without it nothing is run.
 //!
-//! The library as Cargo has built it with the rest is laid beside the Python sources, in the target directory.
+//! The library as Cargo has built it with the rest is laid beside the Python sources, in the target directory. With `--long`
+//! that Python has the wheel, and what the examples take.
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::io::{BufRead as _, BufReader};
@@ -18,15 +19,17 @@ fn main() -> ExitCode {
         println!("test result: ok. 0 passed; 0 failed; 1 ignored");
         return ExitCode::SUCCESS;
     };
-    let package = package().expect("the library and the sources are where Cargo has put them");
-    let mut pytest = Command::new(python)
-        .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
-        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests"))
-        .current_dir(&package)
-        .envs([("PYTHONPATH", package.as_os_str()), ("PYTHONDONTWRITEBYTECODE", "1".as_ref())])
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("LUMEN_PYTHON starts");
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut pytest = Command::new(python);
+    pytest.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).arg(here.join("tests"));
+    if env::var_os("LUMEN_LONG").is_some() {
+        pytest.arg(here.join("examples")).current_dir(env!("CARGO_TARGET_TMPDIR"));
+    } else {
+        let package = package().expect("the library and the sources are where Cargo has put them");
+        pytest.current_dir(&package).env("PYTHONPATH", package);
+    }
+    let pytest = pytest.env("PYTHONDONTWRITEBYTECODE", "1").stdout(Stdio::piped()).spawn();
+    let mut pytest = pytest.expect("LUMEN_PYTHON starts");
     let output = pytest.stdout.take().expect("the output is piped");
     let mut last = String::new();
     for line in BufReader::new(output).lines().map_while(Result::ok) {

@@ -68,24 +68,25 @@ def test_units_become_millimetres(tmp_path, tube):
     assert np.allclose(centimetres.points.max(), 600, atol=0.1)
 
 
-def nrrd(voxels, spacing):
-    """The bytes of a mask."""
-    sizes = " ".join(map(str, voxels.shape))
-    head = (f"NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: {sizes}\nencoding: raw\n"
-            f"space directions: ({spacing},0,0) (0,{spacing},0) (0,0,{spacing})\nspace origin: (0,0,0)\n\n")
-    return head.encode() + voxels.astype(np.uint8).tobytes(order="F")
-
-
-def test_the_surface_of_a_mask_has_the_radius_of_the_tube_in_it(tmp_path):
+def test_the_surface_of_a_mask_has_the_radius_of_the_tube_in_it():
     x, y, z = np.meshgrid(*[np.arange(n) * 0.5 for n in (40, 40, 100)], indexing="ij")
     mask = ((x - 10) ** 2 + (y - 10) ** 2 < 4.0 ** 2) & (z > 4) & (z < 45)
-    (tmp_path / "tube.nrrd").write_bytes(nrrd(mask, 0.5))
-    surface = lumen.read(tmp_path / "tube.nrrd", label=1)
-    radii = np.hypot(surface.points[:, 0] - 10, surface.points[:, 1] - 10)
-    walls = (surface.points[:, 2] > 8) & (surface.points[:, 2] < 40)
+    surface = lumen.from_voxels(mask, (0.5, 0.5, 0.5), (1, 2, 3))
+    radii = np.hypot(surface.points[:, 0] - 11, surface.points[:, 1] - 12)
+    walls = (surface.points[:, 2] > 11) & (surface.points[:, 2] < 43)
     assert radii[walls].mean() == pytest.approx(4.0, abs=0.15)
-    same = lumen.read(nrrd(mask, 0.5), "tube.nrrd")
-    assert (same.points == surface.points).all()
+    assert (lumen.from_voxels(mask * 7, (0.5, 0.5, 0.5), (1, 2, 3), label=7).points == surface.points).all()
+
+
+def test_a_threshold_in_a_scan_is_where_it_says():
+    axes = [np.arange(48) * 0.5 - 12] * 3
+    distance = np.sqrt(sum(along ** 2 for along in np.meshgrid(*axes, indexing="ij")))
+    surface = lumen.from_voxels((100 - 10 * distance).astype(np.float32), (0.5, 0.5, 0.5), (-12, -12, -12), threshold=20)
+    assert np.allclose(np.linalg.norm(surface.points, axis=1), 8, atol=0.02)
+    assert surface.report["threshold"]["value"] == 20
+    for unfit in [np.zeros((4, 4)), np.zeros((4, 4, 4), complex), np.full((4, 4, 4), "a")]:
+        with pytest.raises(ValueError):
+            lumen.from_voxels(unfit)
 
 
 def test_centrelines_are_what_vtk_takes(tube):

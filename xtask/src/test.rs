@@ -138,7 +138,11 @@ pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
 fn native(extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     tools::vulkan()?;
     let display = tools::display()?;
-    let python = if extent == Extent::Quick { None } else { Some(tools::package_python()?) };
+    let python = match extent {
+        Extent::Quick => None,
+        Extent::Ordinary => Some(tools::package_python()?),
+        Extent::Long => Some(tools::wheel_python()?),
+    };
     let runs: &[&[&str]] = match extent {
         Extent::Quick => &QUICK.0,
         Extent::Ordinary => &[ALL, XTASK],
