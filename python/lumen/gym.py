@@ -88,7 +88,7 @@ def episode(env, policy, seed=1):
 
 def main():
     # The smoothing of `lumen trial`, which leaves vessels of 1.5 mm open.
-    vessel = lumen.read(sys.argv[1]).optimise(pass_band=0.1, iterations=30, adapt=False, reduction=90).reduced
+    vessel = lumen.read(sys.argv[1]).optimise(smoothing="paper", pass_band=0.1, iterations=30, reduction=90).reduced
     env = GuidewireEnv(vessel)
     for name, policy in [("random", chance), ("scripted", scripted)]:
         total, has_arrived, speed = episode(env, policy)

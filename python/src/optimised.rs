@@ -17,7 +17,7 @@ use pyo3::exceptions::{PyKeyError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::error::{Error, refused, told};
+use crate::error::{refused, told};
 use crate::settings::Asked;
 use crate::surface::Surface;
 use crate::working::Teller;
@@ -62,9 +62,8 @@ pub(crate) fn optimised(
     teller.run(py, &mut pipeline)?;
     if asked.wants_safe {
         let safe = pipeline.safe().ok_or_else(unfinished)?;
-        let why = safe.refused.as_ref().map_or(String::new(), ToString::to_string);
-        let percent = safe.percent;
-        let percent = percent.ok_or_else(|| Error::new_err(format!("no reduction can be called safe: {why}")))?;
+        let refusal = || safe.refused.as_ref().map_or_else(unfinished, |why| refused(py, why));
+        let percent = safe.percent.ok_or_else(refusal)?;
         let settings = Settings { target: rate(percent), ..asked.settings.clone() };
         pipeline.set(settings).map_err(|error| refused(py, &error))?;
         teller.run(py, &mut pipeline)?;

@@ -76,8 +76,12 @@ def bytes_of_nothing():
     return b"\0" * 80 + (1000).to_bytes(4, "little") + b"\0" * 50
 
 
-def test_a_ball_has_no_vessels_to_steer_through(sphere):
+def test_a_ball_has_no_vessels_to_steer_through_or_to_keep(sphere):
     ball = lumen.Surface(*sphere)
+    assert ball.optimise(reduction=90).certificate["branches"] is None
+    with pytest.raises(lumen.Error) as caught:
+        ball.optimise(reduction="safe")
+    assert caught.value.id
     with pytest.raises(lumen.Error) as caught:
         ball.trial()
     assert caught.value.id
