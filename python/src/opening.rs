@@ -1,5 +1,6 @@
 //! Files, bytes, scans and samples to surfaces, and surfaces to files.
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -61,9 +62,7 @@ pub(crate) fn read(
             let name = name.unwrap_or_else(|| path.to_string_lossy().into_owned());
             if let Some(sample) = name.strip_prefix("sample:") {
                 let sample: Sample = sample.parse().map_err(|error| PyValueError::new_err(format!("{error}")))?;
-                let made = py.detach(|| phantom::generate(sample, sample.default_triangles()));
-                let made = made.map_err(|error| refused(py, &error))?;
-                return Ok(Surface::opened(import_mesh(made, "sample"), name, Some(sample)));
+                return Ok(Surface::opened(made(py, sample)?, name, Some(sample)));
             }
             (name, py.detach(|| gathered(&path)).map_err(|error| unusable(&error, &path))?)
         }
@@ -93,6 +92,18 @@ pub(crate) fn read(
 #[pyfunction]
 pub(crate) fn write(py: Python<'_>, surface: &Surface, path: PathBuf) -> PyResult<()> {
     surface.save(py, path)
+}
+
+fn made(py: Python<'_>, sample: Sample) -> PyResult<Imported> {
+    let mut signal = Ok(());
+    let made = py.detach(|| {
+        phantom::generate_with(sample, sample.default_triangles(), &mut |_| {
+            signal = Python::attach(|py| py.check_signals());
+            if signal.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        })
+    });
+    signal?;
+    Ok(import_mesh(made.map_err(|error| refused(py, &error))?, "sample"))
 }
 
 /// The files of a volume, or the one file that is a surface.
