@@ -96,12 +96,15 @@ pub(crate) fn write(py: Python<'_>, surface: &Surface, path: PathBuf) -> PyResul
 
 fn made(py: Python<'_>, sample: Sample) -> PyResult<Imported> {
     let mut signal = Ok(());
-    let made = py.detach(|| {
-        phantom::generate_with(sample, sample.default_triangles(), &mut |_| {
-            signal = Python::attach(|py| py.check_signals());
-            if signal.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        })
-    });
+    let mut heard = |py: Python<'_>| match py.check_signals() {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(found) => {
+            signal = Err(found);
+            ControlFlow::Break(())
+        }
+    };
+    let made =
+        py.detach(|| phantom::generate_with(sample, sample.default_triangles(), &mut |_| Python::attach(&mut heard)));
     signal?;
     Ok(import_mesh(made.map_err(|error| refused(py, &error))?, "sample"))
 }
