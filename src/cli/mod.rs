@@ -37,7 +37,7 @@ mod scan;
 #[path = "no_scan.rs"]
 mod scan;
 mod scan_options;
-mod serve;
+pub mod serve;
 mod settings;
 mod sheet;
 mod source;

@@ -1,4 +1,5 @@
-//! `lumen trial --serve`: another program holds the wire, by lines of JSON on standard input and output (docs/serve.md).
+//! `lumen trial --serve`: another program holds the wire, by lines of JSON on standard input and output (docs/serve.md). The
+//! Python package takes and gives the same lines without a process between.
 
 use std::io::{BufRead, Write};
 use std::sync::Arc;
@@ -144,9 +145,9 @@ struct Contact {
     force_n: f64,
 }
 
-/// A vessel, and the trial in it.
-struct Door<'a> {
-    mesh: &'a Arc<TriMesh>,
+/// A vessel, and the trial in it, for another program.
+pub struct Door {
+    mesh: Arc<TriMesh>,
     sample: Option<Sample>,
     /// What the command line asks for.
     asked: Setup,
@@ -168,30 +169,53 @@ pub(super) fn serve(
     input: impl BufRead,
     mut output: impl Write,
 ) -> Result<()> {
-    // Nobody but who holds the wire takes it out for another.
-    let home = led(mesh, sample, asked.clone())?;
-    let trial = begun(home.clone(), element, false)?;
-    let mut door = Door { mesh, sample, asked, home, element, trial };
-    write(&mut output, &door.about(&[]))?;
+    let mut door = Door::new(mesh.clone(), sample, asked, element)?;
+    write(&mut output, &door.greeting()?)?;
     for line in input.split(b'\n') {
         let line = line?;
         if line.trim_ascii().is_empty() {
             continue;
         }
-        let request = serde_json::from_slice(&line).map_err(|error| anyhow!("the line is not understood: {error}"));
-        let answer = request.and_then(|request| door.answer(request));
-        write(&mut output, &answer.unwrap_or_else(|error| Answer::Error { error: format!("{error:#}") }))?;
+        let refused = |error| serde_json::to_string(&Answer::Error { error: format!("{error:#}") });
+        write(&mut output, &door.answered(&line).or_else(refused)?)?;
     }
     Ok(())
 }
 
-fn write(output: &mut impl Write, answer: &Answer) -> Result<()> {
-    serde_json::to_writer(&mut *output, answer)?;
-    output.write_all(b"\n")?;
+fn write(output: &mut impl Write, answer: &str) -> Result<()> {
+    writeln!(output, "{answer}")?;
     Ok(output.flush()?)
 }
 
-impl Door<'_> {
+impl Door {
+    /// A trial at its start, the wire in elements of `element` mm if that is asked for.
+    ///
+    /// # Errors
+    /// When no trial is possible on this surface.
+    pub fn new(mesh: Arc<TriMesh>, sample: Option<Sample>, asked: Setup, element: Option<f64>) -> Result<Self> {
+        let home = led(&mesh, sample, asked.clone())?;
+        // Nobody but who holds the wire takes it out for another.
+        let trial = begun(home.clone(), element, false)?;
+        Ok(Self { mesh, sample, asked, home, element, trial })
+    }
+
+    /// What is said before anything is asked.
+    ///
+    /// # Errors
+    /// When a number cannot be written.
+    pub fn greeting(&self) -> Result<String> {
+        Ok(serde_json::to_string(&self.about(&[]))?)
+    }
+
+    /// The answer to a line.
+    ///
+    /// # Errors
+    /// When it cannot be followed; the trial stands as it was.
+    pub fn answered(&mut self, line: &[u8]) -> Result<String> {
+        let request = serde_json::from_slice(line).map_err(|error| anyhow!("the line is not understood: {error}"))?;
+        Ok(serde_json::to_string(&self.answer(request)?)?)
+    }
+
     fn answer(&mut self, request: Request) -> Result<Answer> {
         match request {
             Request::Reset(reset) => {
@@ -228,7 +252,7 @@ impl Door<'_> {
                 setup.entry = Some(Entry { at, direction: reset.direction.unwrap_or_default() });
             }
             setup.target = reset.target.or(setup.target);
-            led(self.mesh, self.sample, setup)?
+            led(&self.mesh, self.sample, setup)?
         };
         setup.seed = reset.seed.unwrap_or(self.asked.seed);
         begun((course, setup), self.element, false)

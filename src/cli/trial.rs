@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result};
 use clap::Args;
 
 use super::misuse::misuse;
@@ -188,7 +188,7 @@ pub(super) fn wire(name: Option<&str>) -> Result<Wire> {
 
 /// The way of a setup, and the setup with what it proposes.
 pub(super) fn led(mesh: &Arc<TriMesh>, sample: Option<Sample>, mut setup: Setup) -> Result<(Arc<Course>, Setup)> {
-    let course = Course::new(mesh, sample, &mut setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
+    let course = Course::new(mesh, sample, &mut setup).context("no trial is possible")?;
     Ok((Arc::new(course), setup))
 }
 
@@ -201,7 +201,7 @@ pub(super) fn begun((course, mut setup): (Arc<Course>, Setup), element: Option<f
     if !exchanges {
         setup.next_wires.clear();
     }
-    Run::new(course, setup).map_err(|error| anyhow!("no trial is possible: {error}"))
+    Run::new(course, setup).context("no trial is possible")
 }
 
 /// Runs the autopilot on a surface to the end; the rest as [`begun`] has it.

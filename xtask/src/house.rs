@@ -39,7 +39,10 @@ const ELSEWHERE: [&str; 4] = ["dist/", "target/", "bench/", "reject/"];
 fn files_that_documents_name_are_there() {
     let is_document = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "md");
     let mut documents = files_below(&root().join("docs")).unwrap();
-    documents.extend(["ARCHITECTURE.md", "CONTRIBUTING.md", "README.md", "SECURITY.md"].map(|name| root().join(name)));
+    documents.extend(
+        ["ARCHITECTURE.md", "CONTRIBUTING.md", "README.md", "SECURITY.md", "python/README.md"]
+            .map(|name| root().join(name)),
+    );
     documents.extend(crates().into_iter().map(|folder| folder.join("README.md")));
     let (mut found, mut missing) = (0, Vec::new());
     for document in documents.into_iter().filter(is_document) {

@@ -1,7 +1,7 @@
 //! `cargo xtask test`: every test, or with `--quick` those that answer within minutes, and at the end how many passed.
 
 use std::io::{BufRead as _, BufReader};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context as _, Result, anyhow, bail};
@@ -138,6 +138,11 @@ pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
 fn native(extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     tools::vulkan()?;
     let display = tools::display()?;
+    let python = match extent {
+        Extent::Quick => None,
+        Extent::Ordinary => Some(tools::package_python()?),
+        Extent::Long => Some(tools::wheel_python()?),
+    };
     let runs: &[&[&str]] = match extent {
         Extent::Quick => &QUICK.0,
         Extent::Ordinary => &[ALL, XTASK],
@@ -151,12 +156,21 @@ fn native(extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
             if extent == Extent::Long {
                 command.env("LUMEN_LONG", "1");
             }
+            if let Some(python) = &python {
+                // The Python package is compared with the command line.
+                command.env("LUMEN_PYTHON", python).env("LUMEN_PROGRAM", program());
+            }
             let (found, well) = count(&mut command, cargo_counts, cargo_part, estimate)?;
             counts.add(found);
             ended_well &= well;
         }
         Ok((counts, ended_well))
     })
+}
+
+/// The command line, as it is built with the native tests.
+fn program() -> PathBuf {
+    target().join("debug").join(format!("lumen{}", std::env::consts::EXE_SUFFIX))
 }
 
 /// `cargo test` on a display.
@@ -224,10 +238,7 @@ fn browser(dist: &Path, extent: Extent, estimate: &mut Estimate) -> Result<(Coun
         .envs(tools::angle())
         .env("LUMEN_DIST", dist)
         .env("LUMEN_NPM", npm)
-        .env(
-            "LUMEN_PROGRAM",
-            crate::step::target().join("debug").join(format!("lumen{}", std::env::consts::EXE_SUFFIX)),
-        );
+        .env("LUMEN_PROGRAM", program());
     if extent == Extent::Long {
         command.env("LUMEN_LONG", "1");
     }

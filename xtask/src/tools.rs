@@ -85,6 +85,41 @@ pub(crate) fn read_back_python(folder: &Path) -> Result<PathBuf> {
     python(folder, "tests/formats/requirements.txt", "Install VTK, trimesh and meshio with pip (a minute, once)")
 }
 
+/// A Python with what `python/tests/requirements.txt` asks for.
+pub(crate) fn package_python() -> Result<PathBuf> {
+    let folder = target().join("python");
+    python(&folder, "python/tests/requirements.txt", "Install numpy, pytest and gymnasium with pip (seconds, once)")
+}
+
+/// A Python of its own with the package as a wheel, built by maturin, and with what tests and examples of it ask for.
+pub(crate) fn wheel_python() -> Result<PathBuf> {
+    let (folder, wheels) = (target().join("python/wheel"), target().join("python/wheels"));
+    let maturin =
+        python(&target().join("python/maturin"), "python/maturin.txt", "Install maturin with pip (seconds, once)")?;
+    for old in [&folder, &wheels].into_iter().filter(|old| old.is_dir()) {
+        std::fs::remove_dir_all(old)?;
+    }
+    step("Build the wheel of the Python package", || {
+        run(Command::new(&maturin)
+            .args(["-m", "maturin", "build", "--release", "--locked", "--manifest-path", "python/Cargo.toml", "--out"])
+            .arg(&wheels))
+    })?;
+    let bin = python(&folder, "python/tests/requirements.txt", "Install what its tests take with pip")?;
+    let wheel = crate::step::files_below(&wheels)?.into_iter().next().context("maturin has built no wheel")?;
+    step("Install the wheel and what its examples take with pip", || {
+        let asked = root().join("python/examples/requirements.txt");
+        run(pip(&bin).arg(wheel).arg("--requirement").arg(asked))
+    })?;
+    Ok(bin)
+}
+
+/// What installs for this Python.
+fn pip(python: &Path) -> Command {
+    let mut command = Command::new(python);
+    command.args(["-m", "pip", "--quiet", "--disable-pip-version-check", "install"]);
+    command
+}
+
 /// A Python with what the list `asked` of the checkout asks for, in a virtual environment below `folder`.
 fn python(folder: &Path, asked: &str, what: &str) -> Result<PathBuf> {
     let asked = root().join(asked);
@@ -100,10 +135,7 @@ fn python(folder: &Path, asked: &str, what: &str) -> Result<PathBuf> {
     }
     step(what, || {
         run(Command::new(&python).args(["-m", "venv"]).arg(&environment))?;
-        run(Command::new(&bin)
-            .args(["-m", "pip", "--quiet", "--disable-pip-version-check", "install", "--requirement"])
-            .arg(&asked))?;
-        Ok(())
+        run(pip(&bin).arg("--requirement").arg(&asked))
     })?;
     std::fs::copy(&asked, &done)?;
     Ok(bin)

@@ -61,6 +61,17 @@ pub fn import_mesh(mesh: TriMesh, format_label: &str) -> Imported {
     at_once(import_made(mesh, format_label.to_owned(), Axes::Lps, Vec::new(), &Yielder::never()))
 }
 
+/// Takes the arrays of another program through the same stage, as if a file held them in this unit.
+///
+/// # Errors
+/// [`ReadError`] where a coordinate is no place, or nothing has an area.
+///
+/// # Panics
+/// When an index of `mesh` is out of range.
+pub async fn import_arrays(mesh: TriMesh, unit: Unit, yielder: &Yielder) -> Result<Imported, ReadError> {
+    import_file(RawSurface::new("arrays", mesh.positions, mesh.triangles), unit, Axes::Unknown, yielder).await
+}
+
 /// As [`import_mesh`], in these axes, resting now and then. The warnings on what it was made of stand before those on the
 /// surface.
 ///

@@ -39,7 +39,7 @@ pub use detect::may_be_volume;
 pub use error::{Counted, Elements, Feature, Named, ReadError, Unfolded, Unnamed, WriteError};
 pub use estimate::{Estimate, estimate};
 pub use formats::Format;
-pub use import::{import_made, import_mesh};
+pub use import::{import_arrays, import_made, import_mesh};
 pub use offer::{LabelName, Offer, VolumeField};
 pub use output::Output;
 pub use places::{LeftOut, left_out};

@@ -73,7 +73,11 @@ impl Centrelines {
         at_once(Self::find(subject, &Yielder::never()))
     }
 
-    async fn find(subject: &Subject, yielder: &Yielder) -> Result<Self, CalibreError> {
+    /// [`Self::new`] in slices.
+    ///
+    /// # Errors
+    /// As there.
+    pub async fn find(subject: &Subject, yielder: &Yielder) -> Result<Self, CalibreError> {
         let Subject { mesh, topology, index } = subject;
         let index = SurfaceIndex::known_or_built(index.clone(), mesh, &yielder.part(0.0..0.1)).await;
         let part = yielder.part(0.1..0.6);

@@ -1,18 +1,16 @@
 """A Gymnasium environment whose guidewire Lumen simulates in any vessel (docs/serve.md). Not for clinical decisions.
 
-    python guidewire_env.py FILE [OPTION...]
+    python -m lumen.gym FILE
 
-steers by two policies, random and scripted, and prints what came of each. FILE and options are those of `lumen trial`;
-LUMEN_PROGRAM names the program if it is not `lumen`. Needs gymnasium and numpy.
+steers by two policies, random and scripted, and prints what came of each. Needs gymnasium.
 """
-import json
-import os
-import subprocess
 import sys
 import time
 
 import gymnasium
 import numpy as np
+
+import lumen
 
 #: Decisions of 0.02 s in one step of the environment.
 REPEAT = 5
@@ -22,32 +20,21 @@ SEEN = ["tip_mm", "tip_direction", "tip_side", "inserted_mm", "roll_rad", "push_
         "target_mm", "is_wrong_branch", "is_looped"]
 
 
-class Guidewire(gymnasium.Env):
+class GuidewireEnv(gymnasium.Env):
     """Action: feed and roll, each -1 to 1 of its largest. Observation: SEEN in one array. Reward: mm nearer to the target along
-    the route, less a tenth of the wall force in N; 100 for arriving."""
+    the route, less a tenth of the wall force in N; 100 for arriving.
+
+    `surface` and `options` are those of `lumen.Guidewire`; `repeat` is the number of decisions of 0.02 s in a step."""
 
     metadata = {"render_modes": []}
 
-    def __init__(self, file, *options):
-        program = os.environ.get("LUMEN_PROGRAM", "lumen")
-        self.lumen = subprocess.Popen([program, "trial", file, *options, "--serve"], stdin=subprocess.PIPE,
-                                      stdout=subprocess.PIPE, text=True)
-        first = self._hear()
+    def __init__(self, surface, *, repeat=REPEAT, **options):
+        self.guidewire, self.repeat = lumen.Guidewire(surface, **options), repeat
+        first = self.guidewire.about()
         self.most = np.array([first["trial"]["most_feed_mm_s"], first["trial"]["most_roll_rad_s"]])
         self.action_space = gymnasium.spaces.Box(-1, 1, (2,), np.float32)
         self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, self._seen(first).shape, np.float32)
         self.steps = 0
-
-    def _hear(self):
-        answer = json.loads(self.lumen.stdout.readline())
-        if "error" in answer:
-            raise ValueError(answer["error"])
-        return answer
-
-    def _ask(self, **request):
-        self.lumen.stdin.write(json.dumps(request) + "\n")
-        self.lumen.stdin.flush()
-        return self._hear()
 
     def _seen(self, answer):
         self.observation = answer["observation"]
@@ -59,20 +46,16 @@ class Guidewire(gymnasium.Env):
         asked = dict(options or {})
         if seed is not None:
             asked["seed"] = seed
-        answer = self._ask(reset=asked)
+        answer = self.guidewire.ask(reset=asked)
         return self._seen(answer), answer["trial"]
 
     def step(self, action):
         before = self.observation["route_mm"]
         feed, roll = (np.clip(action, -1, 1) * self.most).tolist()
-        seen = self._seen(self._ask(step={"feed_mm_s": feed, "roll_rad_s": roll, "repeat": REPEAT}))
+        seen = self._seen(self.guidewire.ask(step={"feed_mm_s": feed, "roll_rad_s": roll, "repeat": self.repeat}))
         now, self.steps = self.observation, self.steps + 1
         reward = now["route_mm"] - before - 0.1 * now["wall_force_n"] + 100 * now["has_arrived"]
         return seen, float(reward), now["has_arrived"], self.steps >= MOST_STEPS, {}
-
-    def close(self):
-        self.lumen.stdin.close()
-        self.lumen.wait()
 
 
 def scripted(env):
@@ -86,26 +69,32 @@ def scripted(env):
 
 
 def chance(env):
+    """Anything."""
     while True:
         yield env.action_space.sample()
 
 
+def episode(env, policy, seed=1):
+    """Steers to the end; the reward in all, whether the wire arrived, and the steps of the solver a second."""
+    env.reset(seed=seed)
+    env.action_space.seed(seed)
+    total, begun = 0.0, time.perf_counter()
+    for action in policy(env):
+        _, reward, has_arrived, is_late, _ = env.step(action)
+        total += reward
+        if has_arrived or is_late:
+            return total, has_arrived, env.observation["steps"] / (time.perf_counter() - begun)
+
+
 def main():
-    env = Guidewire(*sys.argv[1:])
+    # The smoothing of `lumen trial`, which leaves vessels of 1.5 mm open.
+    vessel = lumen.read(sys.argv[1]).optimise(smoothing="paper", pass_band=0.1, iterations=30, reduction=90).reduced
+    env = GuidewireEnv(vessel)
     for name, policy in [("random", chance), ("scripted", scripted)]:
-        env.reset(seed=1)
-        env.action_space.seed(1)
-        total, begun = 0.0, time.perf_counter()
-        for action in policy(env):
-            _, reward, has_arrived, is_late, _ = env.step(action)
-            total += reward
-            if has_arrived or is_late:
-                break
-        taken = time.perf_counter() - begun
+        total, has_arrived, speed = episode(env, policy)
         now = env.observation
         print(f"{name}: {'arrived' if has_arrived else 'cut off'} after {now['time_s']:.1f} s, {now['target_mm']:.1f} mm from the "
-              f"target, reward {total:.0f}, {now['steps'] / taken:.0f} solver steps a second")
-    env.close()
+              f"target, reward {total:.0f}, {env.steps} steps, {speed:.0f} solver steps a second")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,67 @@
+//! Long work in slices: Python's other threads run meanwhile, and between two slices Ctrl-C and the progress are seen to.
+
+use std::time::Duration;
+
+use lumen::pipeline::run::{Advance, Pipeline};
+use lumen::task::{Budget, Progress, Running, Yielder};
+use pyo3::prelude::*;
+
+use crate::error::refused;
+
+/// How long Python waits to be heard.
+const SLICE: Duration = Duration::from_millis(50);
+/// Stages that there are at most: the parts of the progress.
+const STAGES: f32 = lumen::pipeline::stage::Stage::ALL.len() as f32;
+
+/// A slice, from now on.
+pub(crate) fn slice() -> Budget {
+    Budget::new(SLICE)
+}
+
+/// Work to its end, or until Python has had a signal.
+pub(crate) fn worked<T: Send, F: Future<Output = T> + Send>(
+    py: Python<'_>,
+    work: impl FnOnce(Yielder) -> F,
+) -> PyResult<T> {
+    let mut running = Running::new(work);
+    loop {
+        if let Progress::Done(done) = py.detach(|| running.advance(slice())) {
+            return Ok(done);
+        }
+        py.check_signals()?;
+    }
+}
+
+/// How far work is, told to a callable of Python; never less than before.
+pub(crate) struct Teller<'a, 'py> {
+    callable: Option<&'a Bound<'py, PyAny>>,
+    finished: f32,
+    told: f32,
+}
+
+impl<'a, 'py> Teller<'a, 'py> {
+    pub(crate) fn new(callable: Option<&'a Bound<'py, PyAny>>) -> Self {
+        Self { callable, finished: 0.0, told: 0.0 }
+    }
+
+    /// Tells what is under way, and the part of all that is done. An exception of the callable ends the work.
+    pub(crate) fn tell(&mut self, what: &str, part: f32) -> PyResult<()> {
+        self.told = part.clamp(self.told, 1.0);
+        self.callable.map_or(Ok(()), |callable| callable.call1((what, self.told)).map(drop))
+    }
+
+    /// Runs a pipeline to its end. A stage is a part of all, however long it takes.
+    pub(crate) fn run(&mut self, py: Python<'py>, pipeline: &mut Pipeline) -> PyResult<()> {
+        loop {
+            match py.detach(|| pipeline.advance(slice())).map_err(|error| refused(py, &error))? {
+                Advance::Working(stage, part) => self.tell(&stage.to_string(), (self.finished + part) / STAGES)?,
+                Advance::Finished(stage) => {
+                    self.finished += 1.0;
+                    self.tell(&stage.to_string(), self.finished / STAGES)?;
+                }
+                Advance::Idle => return Ok(()),
+            }
+            py.check_signals()?;
+        }
+    }
+}
