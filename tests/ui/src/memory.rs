@@ -20,8 +20,9 @@ use crate::first::{FirstEngine, SLICE};
 pub struct Memory {
     /// Files that the app offered.
     pub offered: Vec<(String, Vec<u8>)>,
-    /// Whether videos can be made, and the frames of the last: width, height and pixels of each.
+    /// Whether videos can be made.
     pub has_video: bool,
+    /// The frames of the last video: width, height and pixels of each.
     pub video: Vec<(u32, u32, Vec<u8>)>,
     /// How many of them were offered two at a time.
     pub pairs: usize,
