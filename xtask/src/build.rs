@@ -47,12 +47,7 @@ pub(crate) fn build() -> Result<PathBuf> {
     let dist = root().join("dist");
     tools::wasm_target()?;
     let npm = tools::npm()?;
-    quiet_step("Compile the browser app", 480.0, || {
-        PROGRAMS.into_iter().try_for_each(|program| {
-            let options = ["--quiet", "--release", "--target=wasm32-unknown-unknown", "--package", program];
-            run(cargo().arg("build").args(options).args(["--config", SMALL]))
-        })
-    })?;
+    quiet_step("Compile the browser app", 480.0, || PROGRAMS.into_iter().try_for_each(compile))?;
 
     let stamp_file = dist_stamp();
     let stamp = inputs()?;
@@ -75,12 +70,18 @@ pub(crate) fn build() -> Result<PathBuf> {
     Ok(dist)
 }
 
+/// Compiles a program for the browser.
+pub(crate) fn compile(program: &str) -> Result<()> {
+    let options = ["--quiet", "--release", "--target=wasm32-unknown-unknown", "--package", program];
+    run(cargo().arg("build").args(options).args(["--config", SMALL]))
+}
+
 fn dist_stamp() -> PathBuf {
     target().join("dist.stamp")
 }
 
 /// A compiled program, before wasm-bindgen.
-fn compiled(program: &str) -> PathBuf {
+pub(crate) fn compiled(program: &str) -> PathBuf {
     target().join(format!("wasm32-unknown-unknown/release/{program}.wasm"))
 }
 
@@ -126,7 +127,7 @@ fn replace(made: &Path, dist: &Path) -> Result<()> {
 
 /// Makes the module smaller; for speed the compiler has optimised it. A higher level takes three times as long, and made
 /// it 3 % larger once compressed.
-fn optimise(npm: &Path, module: &Path) -> Result<()> {
+pub(crate) fn optimise(npm: &Path, module: &Path) -> Result<()> {
     let optimised = module.with_extension("opt");
     let before = std::fs::metadata(module)?.len();
     let script = npm.join("node_modules/binaryen/bin/wasm-opt");
