@@ -6,14 +6,12 @@ import { cp, mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import { pathToFileURL } from "node:url";
 import { promisify } from "node:util";
 import { Worker } from "node:worker_threads";
+import { built, program } from "./built.mjs";
 import { tube } from "./tube.mjs";
 
-const checkout = fileURLToPath(new URL("../../", import.meta.url));
-const folder = process.env.LUMEN_PACKAGE ?? `${checkout}target/npm-package`;
-const program = process.env.LUMEN_PROGRAM ?? `${checkout}target/debug/lumen`;
 const run = promisify(execFile);
 
 /** What the paper does, by the names that the command line has. */
@@ -24,7 +22,7 @@ let open, LumenError, outside;
 before(async () => {
   outside = await mkdtemp(join(tmpdir(), "lumen-"));
   await mkdir(join(outside, "node_modules"));
-  await cp(folder, join(outside, "node_modules/lumen-vessel"), { recursive: true });
+  await cp(built, join(outside, "node_modules/lumen-vessel"), { recursive: true });
   const text = 'export * from "lumen-vessel";';
   await writeFile(join(outside, "program.mjs"), text);
   ({ open, LumenError } = await import(pathToFileURL(join(outside, "program.mjs")).href));

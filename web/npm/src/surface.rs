@@ -195,13 +195,18 @@ impl Surface {
     /// Where there are none, or the vessels were not asked for.
     pub fn centrelines(&self) -> Result<Lines, JsValue> {
         let vessels = self.pipeline.vessels().ok_or_else(|| {
-            refused("npm-no-vessels", &[], "The vessels were not looked for: call optimise() with its certificate first.")
+            refused(
+                "npm-no-vessels",
+                &[],
+                "The vessels were not looked for: call optimise() with its certificate first.",
+            )
         })?;
         let Centrelines { branches, stations, calibres, .. } =
             vessels.as_ref().map_err(|why| refusal(why))?.centrelines();
         let mut starts: Vec<u32> = stations.of.iter().map(|range| range.start as u32).collect();
         starts.push(stations.all.len() as u32);
-        let parents: Vec<i32> = branches.iter().map(|branch| branch.parent.map_or(-1, |parent| parent as i32)).collect();
+        let parents: Vec<i32> =
+            branches.iter().map(|branch| branch.parent.map_or(-1, |parent| parent as i32)).collect();
         let radii: Vec<f32> = stations.all.iter().map(|station| station.radius_mm as f32).collect();
         let section_radii: Vec<f32> =
             calibres.iter().map(|calibre| calibre.area_mm2.map_or(f32::NAN, |area| circle(area) as f32)).collect();

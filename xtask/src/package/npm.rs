@@ -45,6 +45,9 @@ pub(crate) fn folder(finish: Finish) -> Result<PathBuf> {
             std::fs::copy(&file, made.join(file.file_name().context("a file has no name")?))
                 .with_context(|| format!("{} cannot be copied", file.display()))?;
         }
+        // The drawing of a saved page, as a module.
+        let draw = std::fs::read_to_string(root().join("src/report/draw.js"))?;
+        std::fs::write(made.join("draw.js"), draw + "\nexport { surfaceView };\n")?;
         let manifest = std::fs::read_to_string(root().join("web/npm/package.json"))?;
         std::fs::write(made.join("package.json"), manifest.replace("0.0.0", VERSION))?;
         Ok(())
