@@ -44,10 +44,19 @@ const WASM_FEATURES: [&str; 7] = [
 
 /// Builds `dist/`, or leaves it as it is where nothing has changed since the last build, and returns its path.
 pub(crate) fn build() -> Result<PathBuf> {
+    build_beside(&[])
+}
+
+/// As [`build`], with programs that have the page's features and none beside: in one run they share what is compiled.
+pub(crate) fn build_beside(others: &[&str]) -> Result<PathBuf> {
     let dist = root().join("dist");
     tools::wasm_target()?;
     let npm = tools::npm()?;
-    quiet_step("Compile the browser app", 480.0, || PROGRAMS.into_iter().try_for_each(compile))?;
+    quiet_step("Compile the browser app", 480.0, || {
+        let [page, scans] = PROGRAMS;
+        compile(&[&[page], others].concat())?;
+        compile(&[scans])
+    })?;
 
     let stamp_file = dist_stamp();
     let stamp = inputs()?;
@@ -70,10 +79,11 @@ pub(crate) fn build() -> Result<PathBuf> {
     Ok(dist)
 }
 
-/// Compiles a program for the browser.
-pub(crate) fn compile(program: &str) -> Result<()> {
-    let options = ["--quiet", "--release", "--target=wasm32-unknown-unknown", "--package", program];
-    run(cargo().arg("build").args(options).args(["--config", SMALL]))
+/// Compiles programs for the browser.
+pub(crate) fn compile(programs: &[&str]) -> Result<()> {
+    let options = ["--quiet", "--release", "--target=wasm32-unknown-unknown", "--config", SMALL];
+    let programs = programs.iter().flat_map(|program| ["--package", program]);
+    run(cargo().arg("build").args(options).args(programs))
 }
 
 fn dist_stamp() -> PathBuf {

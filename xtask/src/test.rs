@@ -215,8 +215,9 @@ struct Built {
 
 impl Built {
     fn new(extent: Extent) -> Result<Self> {
-        let dist = build::build()?;
-        let package = (extent != Extent::Quick).then(|| npm::folder(npm::Finish::Quick)).transpose()?;
+        let has_package = extent != Extent::Quick;
+        let dist = build::build_beside(if has_package { &[npm::PROGRAM] } else { &[] })?;
+        let package = has_package.then(|| npm::folder(npm::Finish::Quick)).transpose()?;
         let libraries = || tools::npm_packages("tests/npm", "npm-examples", "Install three.js and vtk.js from npm");
         let examples = (extent == Extent::Long).then(libraries).transpose()?;
         Ok(Self { dist, package, examples })

@@ -102,7 +102,7 @@ class Line {
 
   async ask(job, needed, { signal, progress } = {}) {
     signal?.throwIfAborted();
-    const worker = await this.#worker;
+    const worker = await this.#worker.catch((why) => this.#die(why.message));
     signal?.throwIfAborted();
     if (this.died) throw stopped(this.died);
     return new Promise((resolve, reject) => {
@@ -130,14 +130,14 @@ class Line {
     const ended = this.#calls.get(call);
     this.#calls.delete(call);
     ended?.over();
-    if (this.#calls.size === 0) this.#worker.then((worker) => worker.unref?.());
+    if (this.#calls.size === 0) this.#worker.then((worker) => worker.unref?.(), () => {});
     return ended;
   }
 
   #die(why) {
     this.died ||= why;
     for (const call of [...this.#calls.keys()]) this.#end(call).reject(stopped(why));
-    this.#worker.then((worker) => worker.terminate());
+    this.#worker.then((worker) => worker.terminate(), () => {});
   }
 
   end() {

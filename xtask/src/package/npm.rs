@@ -10,7 +10,7 @@ use crate::step::{files_below, output, quiet_step, root, run, step, target};
 use crate::{build, glue, tools};
 
 /// The program that the package's Worker runs.
-const PROGRAM: &str = "lumen-npm";
+pub(crate) const PROGRAM: &str = "lumen-npm";
 
 /// The most that the package may be without its readme and types, in bytes, each file compressed with gzip.
 const BUDGET: usize = 1_200_000;
@@ -21,7 +21,7 @@ const AS_THEY_ARE: [&str; 3] = ["web/npm/README.md", "LICENSE-APACHE", "LICENSE-
 /// How much is made of the module.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Finish {
-    /// What tests need: it is there a quarter of a minute sooner, and larger.
+    /// What tests need: of the program that was compiled beside the app's, a quarter of a minute sooner, and larger.
     Quick,
     /// What is handed to others.
     Small,
@@ -29,8 +29,10 @@ pub(crate) enum Finish {
 
 /// Makes the folder of the package and returns it.
 pub(crate) fn folder(finish: Finish) -> Result<PathBuf> {
-    tools::wasm_target()?;
-    quiet_step("Compile the npm package's program", 180.0, || build::compile(PROGRAM))?;
+    if finish == Finish::Small {
+        tools::wasm_target()?;
+        quiet_step("Compile the npm package's program", 180.0, || build::compile(&[PROGRAM]))?;
+    }
     let npm = tools::npm()?;
     // What tests have is not what is handed to others.
     let made = target().join(if finish == Finish::Small { "package/npm" } else { "npm-package" });
