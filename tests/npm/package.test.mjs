@@ -97,7 +97,7 @@ test("what cannot be done is refused by an identifier, with its values", async (
   await assert.rejects(surface.level(), refused("npm-not-optimised"));
   await assert.rejects(surface.centrelines(), refused("npm-no-vessels"));
   await assert.rejects(surface.optimise({ "pass-band": 3 }), (why) => refused("errors-pass-band")(why) && why.values.value === 3);
-  await assert.rejects(surface.optimise({ smooting: {} }), (why) => refused("app-settings-field")(why) && why.values.why.includes("smooting"));
+  await assert.rejects(surface.optimise({ colour: {} }), (why) => refused("app-settings-field")(why) && why.values.why.includes("colour"));
   await assert.rejects(surface.optimise({ reduction: "much" }), refused("app-settings-field"));
   await surface.optimise({ ...PAPER, iterations: 0 }, { measures: false });
   await assert.rejects(surface.save("jpg"), refused("errors-format-unknown"));

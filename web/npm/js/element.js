@@ -170,8 +170,10 @@ class LumenVessel extends HTMLElement {
     });
     if (!answer.ok) throw new Failure(`The surface cannot be loaded: the server answers ${answer.status}.`);
     const name = decodeURIComponent(new URL(address).pathname.split("/").pop());
-    this.#surface = await open(await answer.blob(), name, { signal });
-    this.#opened = address;
+    const surface = await open(await answer.blob(), name, { signal });
+    if (signal.aborted) surface.close();
+    signal.throwIfAborted();
+    [this.#surface, this.#opened] = [surface, address];
   }
 
   #show({ positions, indices, normals }, signal) {

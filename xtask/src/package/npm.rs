@@ -6,7 +6,7 @@ use std::process::Command;
 use anyhow::{Context as _, Result, bail};
 
 use super::packed::VERSION;
-use crate::step::{files_below, output, quiet_step, root, run, step, target};
+use crate::step::{files_below, output, quiet_step, root, step, target};
 use crate::{build, glue, tools};
 
 /// The program that the package's Worker runs.
