@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use js_sys::{Float32Array, Uint32Array};
 use lumen_io::{Format, ImportReport, Imported, Output, write_output};
-use lumen_mesh::TriMesh;
+use lumen_mesh::{TriMesh, Vec3};
 use lumen_pipeline::deviation::REPORT_SAMPLES;
 use lumen_pipeline::normals::{Weighting, vertex_normals};
 use lumen_pipeline::report::{Report, UnitReport};
@@ -82,7 +82,7 @@ impl Surface {
     }
 
     /// The triangles after a reduction by so many percent; what the settings ask for where that is not said.
-    fn taken(&self, reduction: Option<f64>) -> Result<(TriMesh, Vec<lumen_mesh::Vec3>), JsValue> {
+    fn taken(&self, reduction: Option<f64>) -> Result<(TriMesh, Vec<Vec3>), JsValue> {
         let pipeline = &self.pipeline;
         let Some(percent) = reduction else {
             let reduced = pipeline.reduced().ok_or_else(not_yet)?;
@@ -168,9 +168,9 @@ impl Surface {
     pub fn level(&self, reduction: Option<f64>) -> Result<Level, JsValue> {
         let (mesh, normals) = self.taken(reduction)?;
         Ok(Level {
-            positions: floats(mesh.positions.iter().map(|at| at.to_array())),
+            positions: floats(mesh.positions.iter().map(Vec3::to_array)),
             indices: Uint32Array::from(mesh.triangles.as_flattened()),
-            normals: floats(normals.iter().map(|normal| normal.to_array())),
+            normals: floats(normals.iter().map(Vec3::to_array)),
         })
     }
 
@@ -202,7 +202,7 @@ impl Surface {
             )
         })?;
         let Centrelines { branches, stations, calibres, .. } =
-            vessels.as_ref().map_err(|why| refusal(why))?.centrelines();
+            vessels.as_ref().map_err(refusal)?.centrelines();
         let mut starts: Vec<u32> = stations.of.iter().map(|range| range.start as u32).collect();
         starts.push(stations.all.len() as u32);
         let parents: Vec<i32> =
