@@ -64,6 +64,14 @@ for (const [width, height, colorScheme] of [[1280, 800, "light"], [390, 844, "da
     assert(differing(first, await seen()) > 500, "keys turn");
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true, "nothing is cut off");
 
+    const nothingElse = () => {
+      assert.deepEqual(asked.filter((url) => !url.startsWith(address) && !url.startsWith("data:")), []);
+      assert.deepEqual(wrong, []);
+    };
+    nothingElse();
+    // What follows is the same at any width.
+    if (width < 600 && !process.env.LUMEN_LONG) return;
+
     // Another rate is there before anything is measured; the wireframe is another.
     const sparse = await seen();
     await element.getByLabel("Reduction").fill("50");
@@ -78,9 +86,7 @@ for (const [width, height, colorScheme] of [[1280, 800, "light"], [390, 844, "da
     const settings = await element.evaluate((vessel) => vessel.result.report.settings);
     assert.deepEqual([settings.smoothing.pass_band, settings.target], [0.1, { Reduction: 500 }]);
     assert.equal(await element.getByLabel("Pass band").getAttribute("aria-valuetext"), "0.1 ");
-
-    assert.deepEqual(asked.filter((url) => !url.startsWith(address) && !url.startsWith("data:")), []);
-    assert.deepEqual(wrong, []);
+    nothingElse();
   });
 }
 
