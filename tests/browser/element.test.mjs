@@ -101,6 +101,10 @@ test("what cannot be shown is told in a sentence, and the next address is shown"
   await eventually(() => text(".failure"), (words) => words.includes("cut short"));
   await set("src", "tube.stl");
   await judged();
+  await set("unit", "feet");
+  await eventually(() => text(".failure"), (words) => words.includes("feet"));
+  await set("unit", "mm");
+  await judged();
   await set("pass-band", "7");
   await eventually(() => text(".failure"), (words) => words === "The pass band must lie between 0.001 and 2, not 7.");
   await set("pass-band", "0.01");

@@ -1,5 +1,5 @@
 // <lumen-vessel src="aorta.stl" pass-band="0.01" iterations="100" reduction="90" controls>: a surface in a page, shaded and as
-// wireframe, smoothed and reduced there. Every setting is an attribute by the name that the command line has. It asks for `src`
+// wireframe, smoothed and reduced there. Every setting is an attribute by the name that the command line has, and `unit`. It asks for `src`
 // and for its own files, and for nothing else. Not for clinical decisions.
 
 import { surfaceView } from "./draw.js";
@@ -53,7 +53,7 @@ const SHADOW = `
 </div>`;
 
 class LumenVessel extends HTMLElement {
-  static observedAttributes = ["src", "controls", ...Object.keys(SETTINGS)];
+  static observedAttributes = ["src", "unit", "controls", ...Object.keys(SETTINGS)];
 
   #parts;
   #view;
@@ -61,7 +61,7 @@ class LumenVessel extends HTMLElement {
   /** What is under way; a newer one aborts it. */
   #work = new AbortController();
   #asked = false;
-  /** The address of what is opened, the settings of its levels but for the target, and how many triangles there are. */
+  /** Unit and address of what is opened, the settings of its levels but for the target, and how many triangles there are. */
   #opened = "";
   #smoothed = "";
   #entering = 0;
@@ -157,8 +157,10 @@ class LumenVessel extends HTMLElement {
 
   async #open(signal) {
     const src = this.getAttribute("src");
+    const unit = this.getAttribute("unit") ?? undefined;
     const address = src === null ? "" : new URL(src, document.baseURI).href;
-    if (address === this.#opened) return;
+    const asked = src === null ? "" : `${unit} ${address}`;
+    if (asked === this.#opened) return;
     this.#surface?.close();
     [this.#surface, this.#opened, this.#smoothed] = [undefined, "", ""];
     this.#parts.counts.textContent = src === null ? "" : "Loading...";
@@ -170,10 +172,10 @@ class LumenVessel extends HTMLElement {
     });
     if (!answer.ok) throw new Failure(`The surface cannot be loaded: the server answers ${answer.status}.`);
     const name = decodeURIComponent(new URL(address).pathname.split("/").pop());
-    const surface = await open(await answer.blob(), name, { signal });
+    const surface = await open(await answer.blob(), name, { unit, signal });
     if (signal.aborted) surface.close();
     signal.throwIfAborted();
-    [this.#surface, this.#opened] = [surface, address];
+    [this.#surface, this.#opened] = [surface, asked];
   }
 
   #show({ positions, indices, normals }, signal) {

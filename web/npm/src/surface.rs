@@ -201,8 +201,7 @@ impl Surface {
                 "The vessels were not looked for: call optimise() with its certificate first.",
             )
         })?;
-        let Centrelines { branches, stations, calibres, .. } =
-            vessels.as_ref().map_err(refusal)?.centrelines();
+        let Centrelines { branches, stations, calibres, .. } = vessels.as_ref().map_err(refusal)?.centrelines();
         let mut starts: Vec<u32> = stations.of.iter().map(|range| range.start as u32).collect();
         starts.push(stations.all.len() as u32);
         let parents: Vec<i32> =
