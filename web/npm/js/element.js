@@ -204,7 +204,9 @@ class LumenVessel extends HTMLElement {
 
   #judge({ head, calibre, is_safe, findings }) {
     const { verdict } = this.#parts;
-    verdict.textContent = [head, calibre, ...findings.filter(({ is_grave }) => is_grave).map(({ text }) => text)].filter(Boolean).map(sentence).join(" ");
+    // What is grave of the calibre stands in both.
+    const told = new Set([head, calibre, ...findings.filter(({ is_grave }) => is_grave).map(({ text }) => text)].filter(Boolean).map(sentence));
+    verdict.textContent = [...told].join(" ");
     verdict.className = `verdict ${is_safe === true ? "safe" : is_safe === false ? "grave" : ""}`;
   }
 
