@@ -1,5 +1,5 @@
 //! The surface in a page, to be turned there: as reduced, and with more triangles beside it. The page draws it by a script of
-//! its own (`viewer.js`), and asks for nothing.
+//! its own (`viewer.js`, which `draw.js` draws for), and asks for nothing.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -13,7 +13,7 @@ use crate::say;
 
 /// What draws the surface. Browsers leave out the carriage returns that a checkout may bring, and would not know the hash.
 pub(super) fn script() -> String {
-    include_str!("viewer.js").replace('\r', "")
+    concat!(include_str!("draw.js"), include_str!("viewer.js")).replace('\r', "")
 }
 
 /// What all surfaces of a page take at most, in bytes of text. The reduced one is there in any case.

@@ -44,14 +44,18 @@ const WASM_FEATURES: [&str; 7] = [
 
 /// Builds `dist/`, or leaves it as it is where nothing has changed since the last build, and returns its path.
 pub(crate) fn build() -> Result<PathBuf> {
+    build_beside(&[])
+}
+
+/// As [`build`], with programs that have the page's features and none beside: in one run they share what is compiled.
+pub(crate) fn build_beside(others: &[&str]) -> Result<PathBuf> {
     let dist = root().join("dist");
     tools::wasm_target()?;
     let npm = tools::npm()?;
     quiet_step("Compile the browser app", 480.0, || {
-        PROGRAMS.into_iter().try_for_each(|program| {
-            let options = ["--quiet", "--release", "--target=wasm32-unknown-unknown", "--package", program];
-            run(cargo().arg("build").args(options).args(["--config", SMALL]))
-        })
+        let [page, scans] = PROGRAMS;
+        compile(&[&[page], others].concat())?;
+        compile(&[scans])
     })?;
 
     let stamp_file = dist_stamp();
@@ -75,12 +79,19 @@ pub(crate) fn build() -> Result<PathBuf> {
     Ok(dist)
 }
 
+/// Compiles programs for the browser.
+pub(crate) fn compile(programs: &[&str]) -> Result<()> {
+    let options = ["--quiet", "--release", "--target=wasm32-unknown-unknown", "--config", SMALL];
+    let programs = programs.iter().flat_map(|program| ["--package", program]);
+    run(cargo().arg("build").args(options).args(programs))
+}
+
 fn dist_stamp() -> PathBuf {
     target().join("dist.stamp")
 }
 
 /// A compiled program, before wasm-bindgen.
-fn compiled(program: &str) -> PathBuf {
+pub(crate) fn compiled(program: &str) -> PathBuf {
     target().join(format!("wasm32-unknown-unknown/release/{program}.wasm"))
 }
 
@@ -126,7 +137,7 @@ fn replace(made: &Path, dist: &Path) -> Result<()> {
 
 /// Makes the module smaller; for speed the compiler has optimised it. A higher level takes three times as long, and made
 /// it 3 % larger once compressed.
-fn optimise(npm: &Path, module: &Path) -> Result<()> {
+pub(crate) fn optimise(npm: &Path, module: &Path) -> Result<()> {
     let optimised = module.with_extension("opt");
     let before = std::fs::metadata(module)?.len();
     let script = npm.join("node_modules/binaryen/bin/wasm-opt");

@@ -8,7 +8,8 @@ use anyhow::{Context as _, Result, anyhow, bail};
 use clap::ValueEnum;
 
 use crate::estimate::Estimate;
-use crate::step::{cargo, name, root, step, target};
+use crate::package::npm;
+use crate::step::{cargo, files_below, name, root, step, target};
 use crate::{build, firmware, tools};
 
 /// What `--quick` runs: the arguments of `cargo test` in turn, and files of tests/browser.
@@ -73,7 +74,7 @@ impl Extent {
 pub(crate) enum Suite {
     /// Library, command line and window, as `cargo test` runs them, and the firmware.
     Native,
-    /// The built app in headless Chromium.
+    /// The built app in headless Chromium, the npm package there and in Node.
     Browser,
 }
 
@@ -108,7 +109,7 @@ pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
     };
     let done = std::thread::scope(|scope| {
         // Linking and wasm-opt are one thread for minutes: they go on beside the native tests.
-        let dist = wanted(Suite::Browser).then(|| scope.spawn(build::build));
+        let built = wanted(Suite::Browser).then(|| scope.spawn(move || Built::new(extent)));
         let native = if wanted(Suite::Native) {
             native(extent, &mut estimate).map(&mut add).and_then(|()| match extent {
                 Extent::Quick => Ok(()),
@@ -118,9 +119,9 @@ pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
             Ok(())
         };
         estimate.end();
-        let browser = match dist.map(std::thread::ScopedJoinHandle::join) {
+        let browser = match built.map(std::thread::ScopedJoinHandle::join) {
             None => Ok(()),
-            Some(Ok(Ok(dist))) => browser(&dist, extent, &mut estimate).map(&mut add),
+            Some(Ok(Ok(built))) => browser(&built, extent, &mut estimate).map(&mut add),
             Some(Ok(Err(error))) => Err(error),
             Some(Err(_)) => Err(anyhow!("the build of the browser app panicked")),
         };
@@ -216,11 +217,36 @@ fn cargo_counts(line: &str, counts: &mut Counts) {
     }
 }
 
-fn browser(dist: &Path, extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
+/// What runs in browsers.
+struct Built {
+    /// The app.
+    dist: PathBuf,
+    /// The npm package.
+    package: Option<PathBuf>,
+    /// The libraries of its examples.
+    examples: Option<PathBuf>,
+}
+
+impl Built {
+    fn new(extent: Extent) -> Result<Self> {
+        let has_package = extent != Extent::Quick;
+        let dist = build::build_beside(if has_package { &[npm::PROGRAM] } else { &[] })?;
+        let package = has_package.then(|| npm::folder(npm::Finish::Quick)).transpose()?;
+        let libraries = || tools::npm_packages("tests/npm", "npm-examples", "Install three.js and vtk.js from npm");
+        let examples = (extent == Extent::Long).then(libraries).transpose()?;
+        Ok(Self { dist, package, examples })
+    }
+}
+
+fn browser(built: &Built, extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     let npm = tools::npm()?;
     let chromium = tools::chromium()?;
-    let mut files: Vec<_> = std::fs::read_dir(root().join("tests/browser"))?
-        .filter_map(|entry| Some(entry.ok()?.path()))
+    let mut files: Vec<_> = ["tests/browser", "tests/npm"]
+        .into_iter()
+        .map(|folder| files_below(&root().join(folder)))
+        .collect::<Result<Vec<_>>>()?
+        .concat()
+        .into_iter()
         .filter(|path| path.to_string_lossy().ends_with(".test.mjs"))
         .filter(|path| extent != Extent::Quick || QUICK.1.iter().any(|name| path.ends_with(name)))
         .collect();
@@ -236,11 +262,14 @@ fn browser(dist: &Path, extent: Extent, estimate: &mut Estimate) -> Result<(Coun
         .args(files)
         .env("CHROMIUM", chromium)
         .envs(tools::angle())
-        .env("LUMEN_DIST", dist)
+        .env("LUMEN_DIST", &built.dist)
         .env("LUMEN_NPM", npm)
         .env("LUMEN_PROGRAM", program());
     if extent == Extent::Long {
         command.env("LUMEN_LONG", "1");
+    }
+    for (name, folder) in [("LUMEN_PACKAGE", &built.package), ("LUMEN_EXAMPLES", &built.examples)] {
+        command.envs(folder.iter().map(|folder| (name, folder)));
     }
     estimate.begin("browser tests");
     step("Run the browser tests", || count(&mut command, node_counts, |_| None, estimate))

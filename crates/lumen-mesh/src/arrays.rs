@@ -26,7 +26,7 @@ pub enum Association {
 
 /// Whether a mean can be taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename = "ArrayKind", rename_all = "lowercase")]
 pub enum Kind {
     /// It can.
     Continuous,

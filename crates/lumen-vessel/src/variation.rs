@@ -37,7 +37,7 @@ const FEWEST: usize = 3;
 
 /// Which way a stretch differs from what is on either side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(rename = "VariationKind", rename_all = "snake_case")]
 pub enum Kind {
     /// It is narrower.
     Narrower,

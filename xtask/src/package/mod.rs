@@ -1,5 +1,5 @@
 //! `cargo xtask package`: what is handed to others. A Debian package and an archive of the desktop program, and an archive
-//! of `dist/` with the headers that common hosts of static files are told by.
+//! of `dist/` with the headers that common hosts of static files are told by; by itself the package for JavaScript.
 //!
 //! The same program and `dist/` give the same bytes: files are sorted, and their times are those of `SOURCE_DATE_EPOCH` or
 //! 1980.
@@ -9,13 +9,14 @@ mod clean_root;
 mod deb;
 mod files;
 mod headers;
+pub(crate) mod npm;
 mod packed;
 
 use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 use crate::build;
 use crate::step::{cargo, run, step, target};
@@ -26,6 +27,9 @@ use packed::VERSION;
 /// Options of `cargo xtask package`.
 #[derive(Args)]
 pub(crate) struct Options {
+    /// The package for JavaScript alone, as a folder and as `npm pack` packs it.
+    #[arg(value_enum)]
+    only: Option<Only>,
     /// The desktop program to pack, in place of a release build.
     #[arg(long)]
     program: Option<PathBuf>,
@@ -40,13 +44,23 @@ pub(crate) struct Options {
     tries: bool,
 }
 
+/// A package that is made by itself.
+#[derive(Clone, Copy, ValueEnum)]
+enum Only {
+    /// `target/package/npm` and its archive.
+    Npm,
+}
+
 /// Makes the packages in `target/package` and says where they are.
 pub(crate) fn package(options: &Options) -> Result<()> {
+    let out = target().join("package");
+    std::fs::create_dir_all(&out).with_context(|| format!("{} cannot be made", out.display()))?;
+    if let Some(Only::Npm) = options.only {
+        return npm::package(&out);
+    }
     if !cfg!(target_os = "linux") {
         bail!("packages are made on Linux");
     }
-    let out = target().join("package");
-    std::fs::create_dir_all(&out).with_context(|| format!("{} cannot be made", out.display()))?;
     let program = match &options.program {
         Some(program) => program.clone(),
         None => step("Compile the desktop program", || {

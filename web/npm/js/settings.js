@@ -1,0 +1,25 @@
+// Made from Rust: LUMEN_WRITE=1 cargo test -p lumen-npm
+
+export const SETTINGS = {
+  "weld": { least: 0.000001, most: 100, decimals: 4, unit: "mm", logarithmic: false },
+  "split": {},
+  "fill-holes": { least: 0.001, most: 1000, decimals: 1, unit: "mm", logarithmic: false },
+  "lumen": {},
+  "keep": {},
+  "window": {},
+  "pass-band": { least: 0.001, most: 2, decimals: 4, unit: "", logarithmic: true, preset: 0.01 },
+  "iterations": { least: 0, most: 200, decimals: 0, unit: "", logarithmic: false, preset: 100 },
+  "boundary": {},
+  "preserve-volume": {},
+  "adapt": {},
+  "guard": {},
+  "hold-caps": {},
+  "method": {},
+  "feature-angle": { least: 0, most: 180, decimals: 0, unit: "°", logarithmic: false, preset: 60 },
+  "spare-thin": {},
+  "keep-labels": {},
+  "reduction": { least: 0, most: 99.9, decimals: 1, unit: "%", logarithmic: false },
+  "triangles": { least: 0, most: 4294967295, decimals: 0, unit: "", logarithmic: false },
+  "max-deviation": { least: 0.001, most: 1000, decimals: 3, unit: "mm", logarithmic: true },
+  "tolerance": { least: 0, most: 100, decimals: 1, unit: "%", logarithmic: false, preset: 2 },
+};
