@@ -64,7 +64,8 @@ fn nodes(levels: usize) -> (String, &'static str) {
     }
     let ids: Vec<String> = (1..levels).map(|level| level.to_string()).collect();
     // On half of the area half of the triangles are as fine.
-    let coverage: Vec<String> = (1..=levels).map(|level| (0.5_f64.powi(level as i32 - 1) / 2.0).to_string()).collect();
+    let halves = std::iter::successors(Some(0.5_f64), |part| Some(part / 2.0));
+    let coverage: Vec<String> = halves.take(levels).map(|part| part.to_string()).collect();
     let mut nodes = format!(
         "{{\"name\":\"surface\",\"mesh\":0,{scale},\"extensions\":{{\"MSFT_lod\":{{\"ids\":[{}]}}}},\
          \"extras\":{{\"MSFT_screencoverage\":[{}]}}}}",
