@@ -12,7 +12,7 @@ use super::settings::Asked;
 use super::written::WrittenOptions;
 use crate::io::{self, Format, Imported, Output};
 use crate::pipeline::deviation::REPORT_SAMPLES;
-use crate::pipeline::lod::halved;
+use crate::pipeline::coarser::halved;
 use crate::pipeline::report::{Report, UnitReport};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::verdict::{Finding, Verdict, VerdictReport};

@@ -21,7 +21,7 @@ use super::source::Source;
 use crate::io::{self, Axes, Imported, Output};
 use crate::language::{Key, tell};
 use crate::mesh::{TriMesh, Vec3};
-use crate::pipeline::lod::halved;
+use crate::pipeline::coarser::halved;
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Settings;
