@@ -79,8 +79,8 @@ async fn compared(
         refused: found.calibre.as_ref().err().cloned(),
         lie_apart: align != Align::Rigid && found.lie_apart(&reference),
         warnings: report.warnings,
-        over_reference: found.over_reference.map_or_else(Vec::new, |distances| distances.signed),
-        over_surface: found.over_surface.signed,
+        over_reference: found.over_reference.map_or_else(Default::default, Into::into),
+        over_surface: found.over_surface.into(),
         reference,
         surface,
     })
@@ -133,8 +133,9 @@ mod tests {
         assert_eq!((found.id, two.report.reference.triangles), (7, small.triangles.len()));
         assert!((two.report.deviation_mm.mean - 1.0).abs() < 0.01, "{:?}", two.report.deviation_mm);
         // The larger lies outside, seen from either.
-        assert_eq!([two.over_reference.len(), two.over_surface.len()], [&small, &large].map(|m| m.positions.len()));
-        let all = two.over_reference.iter().chain(&two.over_surface);
+        let over = [&two.over_reference, &two.over_surface];
+        assert_eq!(over.map(|over| over.signed.len()), [&small, &large].map(|m| m.positions.len()));
+        let all = over.into_iter().flat_map(|over| over.signed.iter().chain(&over.plain));
         assert!(all.clone().all(|&mm| (mm - 1.0).abs() < 0.02), "{:?}", all.clone().fold(1.0_f32, |a, &b| a.min(b)));
         assert!(!two.lie_apart);
         // Far away it is brought back.

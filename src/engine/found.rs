@@ -8,7 +8,7 @@ use super::surfaces::{levels, surface};
 use crate::io::{ImportReport, Warning};
 use crate::mesh::mending::{FaultCounts, FaultPlace};
 use crate::mesh::{TriMesh, Vec3};
-use crate::pipeline::beside::BesideReport;
+use crate::pipeline::beside::{BesideReport, Distances};
 use crate::pipeline::deviation::Deviation;
 use crate::pipeline::histogram::Histogram;
 use crate::pipeline::progressive::ProgressiveMesh;
@@ -71,12 +71,10 @@ pub struct TwoFiles {
     /// What is judged, moved as was asked for.
     #[serde(with = "surface")]
     pub surface: Arc<TriMesh>,
-    /// For each vertex of the reference the mean distance of the surface around it, in mm, positive where it lies outside.
-    #[serde(with = "bulk")]
-    pub over_reference: Vec<f32>,
+    /// For each vertex of the reference the mean distance of the surface around it, in mm.
+    pub over_reference: Over,
     /// The same for each vertex of the surface.
-    #[serde(with = "bulk")]
-    pub over_surface: Vec<f32>,
+    pub over_surface: Over,
     /// The numbers.
     pub report: BesideReport,
     /// Why no vessels were measured.
@@ -87,6 +85,23 @@ pub struct TwoFiles {
     pub lie_apart: bool,
     /// What looked odd about the reference's file.
     pub warnings: Vec<Warning>,
+}
+
+/// Mean distances around each vertex, in mm.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Over {
+    /// Without a sign.
+    #[serde(with = "bulk")]
+    pub plain: Vec<f32>,
+    /// Positive where the surface lies outside the reference.
+    #[serde(with = "bulk")]
+    pub signed: Vec<f32>,
+}
+
+impl From<Distances> for Over {
+    fn from(Distances { plain, signed }: Distances) -> Self {
+        Self { plain, signed }
+    }
 }
 
 /// What came of making a surface ready for a solver.

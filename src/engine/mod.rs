@@ -37,8 +37,8 @@ pub mod trial;
 
 pub use self::current::PATIENCE;
 pub use self::found::{
-    Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, FilesCompared, LevelArrays, Opened, Ready, Reduced,
-    SolverReady, TwoFiles,
+    Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, FilesCompared, LevelArrays, Opened, Over, Ready,
+    Reduced, SolverReady, TwoFiles,
 };
 pub use self::link::Link;
 pub use self::machine::{Machine, SLICE};

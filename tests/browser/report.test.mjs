@@ -157,3 +157,36 @@ test("the surface in a saved page is turned, zoomed and saved there, on a desk a
     assert.deepEqual(asked.filter((url) => !/^(data|blob):/.test(url)), [pathToFileURL(file).href]);
   }
 });
+
+test("a turntable is saved as a video that plays", async (t) => {
+  const { page, wrong } = await openApp(t, browser, { context: COARSE });
+  await settled(page);
+  await press(page, "button", "Save");
+  const download = page.waitForEvent("download", { timeout: 120_000 });
+  await press(page, "menuitem", "Turntable as video (WebM)...");
+  const file = await download;
+  assert.equal(file.suggestedFilename(), "abdominal-aorta-turntable.webm");
+  const bytes = await readFile(await file.path());
+  const other = await browser.newPage();
+  t.after(() => other.close());
+  const played = await other.evaluate(async (address) => {
+    const video = Object.assign(document.createElement("video"), { muted: true, src: address, playbackRate: 4 });
+    const until = (event) => new Promise((resolve, reject) => (video.addEventListener(event, resolve), (video.onerror = () => reject(new Error(video.error.message)))));
+    await until("loadeddata");
+    const seen = () => {
+      const canvas = Object.assign(document.createElement("canvas"), { width: video.videoWidth, height: video.videoHeight });
+      const context = canvas.getContext("2d");
+      context.drawImage(video, 0, 0);
+      return context.getImageData(0, 0, canvas.width, canvas.height).data;
+    };
+    const first = seen();
+    const sides = new Promise((resolve) => video.addEventListener("timeupdate", () => video.currentTime > 0.5 && resolve(seen())));
+    await Promise.all([until("ended"), video.play()]);
+    const side = await sides;
+    const differing = first.filter((value, i) => Math.abs(value - side[i]) > 24).length;
+    return { seconds: video.currentTime, longer: Math.max(video.videoWidth, video.videoHeight), differing };
+  }, `data:video/webm;base64,${bytes.toString("base64")}`);
+  // 48 frames of 80 ms, or longer where the machine is slow.
+  assert(played.seconds > 3.5 && played.longer === 480 && played.differing > 500, JSON.stringify(played));
+  assert.deepEqual(wrong, []);
+});

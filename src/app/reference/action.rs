@@ -13,6 +13,8 @@ pub enum Action {
     OfLevel(bool),
     /// Move the surface so first.
     Align(Align),
+    /// Give inside and outside the same colours.
+    Plain(bool),
     /// Compare once more, after that was stopped.
     Again,
     /// Save the numbers.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::app::document::Revision;
-use crate::engine::{FilesCompared, Source, TwoFiles};
+use crate::engine::{FilesCompared, Over, Source, TwoFiles};
 use crate::pipeline::beside::Align;
 
 /// What is compared, and how.
@@ -30,8 +30,8 @@ enum Judged {
 pub struct Found {
     /// The surfaces and the numbers.
     pub two: TwoFiles,
-    /// The signed distances over the reference and over the surface, in mm.
-    pub over: [Arc<Vec<f32>>; 2],
+    /// The distances over the reference and over the surface, in mm: without a sign, and with one.
+    pub over: [[Arc<Vec<f32>>; 2]; 2],
 }
 
 /// Another file that the open surface is compared with.
@@ -45,6 +45,8 @@ pub struct Against {
     pub align: Align,
     /// Whether the level is compared, not the surface as it was opened.
     pub of_level: bool,
+    /// Whether inside and outside have the same colours.
+    pub is_plain: bool,
     /// Whether the next file that is chosen is the reference.
     awaits_file: bool,
     /// How many files were taken.
@@ -100,7 +102,8 @@ impl Against {
     pub fn receive(&mut self, FilesCompared { id, outcome }: FilesCompared) -> bool {
         let Some((_, question)) = self.asked.take_if(|(asked, _)| *asked == id) else { return false };
         let found = outcome.map(|mut two| {
-            let over = [&mut two.over_reference, &mut two.over_surface].map(|map| Arc::new(std::mem::take(map)));
+            let over = [&mut two.over_reference, &mut two.over_surface].map(std::mem::take);
+            let over = over.map(|Over { plain, signed }| [plain, signed].map(Arc::new));
             Box::new(Found { two, over })
         });
         self.answered = Some((question, found));

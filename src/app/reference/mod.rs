@@ -76,6 +76,7 @@ impl Panel for ReferenceView {
             }
             Action::OfLevel(of_level) => against.of_level = of_level,
             Action::Align(align) => against.align = align,
+            Action::Plain(is_plain) => against.is_plain = is_plain,
             Action::Again => against.go_on(),
             Action::SaveNumbers | Action::SaveStations => {
                 let file =

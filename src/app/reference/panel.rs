@@ -91,6 +91,11 @@ pub(super) fn numbers(ui: &mut Ui, state: &State, asked: &mut Vec<Ask>) {
     sizes(ui, report);
     ui.separator();
     distances(ui, report, asked);
+    let mut is_signed = !against.is_plain;
+    let signed = ui.checkbox(&mut is_signed, say!("panel-signed")).on_hover_text(say!("reference-signed-help"));
+    if signed.changed() {
+        asked.push(Ask::Reference(Action::Plain(!is_signed)));
+    }
     ui.separator();
     vessels(ui, found, asked);
     ui.separator();

@@ -97,7 +97,8 @@ impl ReferenceView {
         self.take_camera(views, meshes, axes, first);
         let shaded: &'static [Look] = if views.options.flat { &[Look::Flat] } else { &[Look::Shaded] };
         let most = (found.two.report.deviation_mm.p95 as f32).max(1e-6);
-        let map = ColourMap { range: (-most, most) };
+        let is_signed = !state.against.is_plain;
+        let map = ColourMap { range: (if is_signed { -most } else { 0.0 }, most) };
         self.divider.advance(ui);
         for (row, rect) in [first, second].into_iter().enumerate() {
             let rect = rect.shrink(0.5);
@@ -109,7 +110,7 @@ impl ReferenceView {
                 raking: views.options.raking,
                 occlusion: views.options.occlusion && !is_coloured,
                 map: is_coloured.then_some(map),
-                diverging: is_coloured,
+                diverging: is_coloured && is_signed,
                 ..theme::style(ui.visuals())
             };
             let shot = Shot { camera: views.camera, size: pixels(ui, rect), looks: shaded, style };
@@ -124,7 +125,7 @@ impl ReferenceView {
                 name: Some(&found.two.report.surface.file),
                 camera: &views.camera,
                 axes,
-                legend: is_coloured.then(|| legend(map)),
+                legend: is_coloured.then(|| legend(map, is_signed)),
                 array: None,
                 is_alone: false,
             };
@@ -173,7 +174,7 @@ impl ReferenceView {
         let (left, right) = rect.split_left_right_at_fraction(self.divider.at());
         let sides = [(&found.two.reference, left), (&found.two.surface, right)];
         for (side, (mesh, half)) in sides.into_iter().enumerate() {
-            let over = shot.style.map.and(Some(&found.over[side]));
+            let over = shot.style.map.and(Some(&found.over[side][usize::from(shot.style.diverging)]));
             let texture = scene.draw(2 * row + side, mesh, over, shot);
             let texture = texture.map_err(|error| say!("compare-not-drawn", why = surface_error(&error)))?;
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -184,17 +185,17 @@ impl ReferenceView {
 }
 
 /// What the colours say.
-fn legend(map: ColourMap) -> Legend {
+fn legend(map: ColourMap, is_signed: bool) -> Legend {
     Legend {
         map,
         title: say!("reference-legend"),
         unit: "mm",
         decimals: 3,
         is_open: true,
-        is_open_below: true,
-        note: say!("reference-legend-sides"),
+        is_open_below: is_signed,
+        note: if is_signed { say!("reference-legend-sides") } else { String::new() },
         patch: None,
-        is_diverging: true,
+        is_diverging: is_signed,
         has_histogram: false,
     }
 }

@@ -52,6 +52,7 @@ reference-mean = Abstand, Mittel
 reference-rms = Abstand, RMS
 reference-p95 = Abstand, 95 %
 reference-distance-help = Zwischen den beiden, in beide Richtungen über Stichproben von jeder gemessen
+reference-signed-help = Außen und innen in eigenen Farben, oder nur wie weit
 reference-farthest-reference = Fernster der Referenz
 reference-farthest-surface = Fernster der Oberfläche
 reference-farthest-help = Wie weit ihr fernster Punkt von der anderen entfernt ist: kein Punkt ist weiter als { $most } mm, mit Sicherheit

@@ -52,6 +52,7 @@ reference-mean = Distance, mean
 reference-rms = Distance, RMS
 reference-p95 = Distance, 95 %
 reference-distance-help = Between the two, measured both ways over samples of each
+reference-signed-help = Outside and inside in colours of their own, or only how far
 reference-farthest-reference = Farthest on reference
 reference-farthest-surface = Farthest on surface
 reference-farthest-help = How far the farthest point of it is from the other: no point is farther than { $most } mm, for certain

@@ -52,6 +52,7 @@ reference-mean = Distance, moyenne
 reference-rms = Distance, RMS
 reference-p95 = Distance, 95 %
 reference-distance-help = Entre les deux, mesurée dans les deux sens sur des échantillons de chacune
+reference-signed-help = Dehors et dedans dans des couleurs propres, ou seulement la distance
 reference-farthest-reference = Plus loin, référence
 reference-farthest-surface = Plus loin, surface
 reference-farthest-help = La distance de son point le plus éloigné à l'autre : aucun point n'est à plus de { $most } mm, avec certitude

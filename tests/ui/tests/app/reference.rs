@@ -43,11 +43,16 @@ fn a_narrower_tube_is_told_to_be_so_and_what_is_told_is_saved() {
     let change = report.calibre.branches[0].largest_change_percent.unwrap();
     assert!((change + 100.0 / 11.0).abs() < 0.5, "3 of 3.3 mm: {change} %");
     // Signed: the surface lies inside, and is nowhere outside.
-    assert!(found.over.iter().all(|over| over.iter().all(|mm| (-0.45..-0.2).contains(mm))));
+    assert!(found.over.iter().all(|[plain, signed]| {
+        plain.iter().all(|mm| (0.2..0.45).contains(mm)) && signed.iter().all(|mm| (-0.45..-0.2).contains(mm))
+    }));
     assert!(says(&harness, "The vessel changed by more than 2 %.") && says(&harness, "Two surfaces"));
     for picture in ["Shaded", "Distance from the other"] {
         assert!(harness.query_by_role_and_label(Role::Image, picture).is_some(), "{picture}");
     }
+    press(&mut harness, Role::CheckBox, "Inside and outside");
+    assert!(against(&harness).is_plain);
+    let report = &against(&harness).answer().unwrap().unwrap().two.report;
     let mean = format!("\"mean\": {}", report.deviation_mm.mean);
     press(&mut harness, Role::Button, "Save JSON");
     let (name, bytes) = offered(&mut harness, &memory);
