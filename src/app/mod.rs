@@ -10,7 +10,7 @@
 //! 4. `state`, `mode`;
 //! 5. drawing: `arrays`, `overlay`, `scene`, `deviation`, `mending`, `verdict`;
 //! 6. panels beside the views: [`collapses`], [`measure`], [`vessels`]; then `views`;
-//! 7. modes with views of their own: `filling`, [`compare`], [`reference`], [`solver`], [`trial`], [`scan`]; [`lesson`], [`record`], `recovery`;
+//! 7. modes with views of their own: `filling`, [`compare`], [`mod@reference`], [`solver`], [`trial`], [`scan`]; [`lesson`], [`record`], `recovery`;
 //! 8. the window: `Panels` below, `bar`, `invitation`, `shortcuts`, `lumen_app`, `lasting`.
 //!
 //! One more panel is its folder, its variant in `action` and its lines in `Panels` below.
@@ -28,7 +28,7 @@
 //! - `drawer`: the panel of a phone; `tabs`: one large view there.
 //! - `sharing`: settings as a file and in a link; `recovery`: what comes back after a reload.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
-//! - [`reference`]: the open surface beside another file.
+//! - [`mod@reference`]: the open surface beside another file.
 //! - [`trial`]: the guidewire trial.
 //! - [`solver`]: a level made ready for a solver.
 //! - [`scan`]: a scan or a mask, before there is a surface.
