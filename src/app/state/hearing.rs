@@ -4,6 +4,7 @@ use super::{Effect, Engine, State};
 use crate::engine::{Event, Work};
 use crate::language::decimal;
 use crate::pipeline::report::Report;
+use crate::pipeline::safe::{Claim, Safe};
 use crate::pipeline::settings::Settings;
 use crate::say;
 
@@ -97,7 +98,7 @@ impl State {
                         self.rest();
                     }
                 }
-                let went_back = self.has_gone_back(&report);
+                let went_back = self.has_gone_back(&report).map(|percent| gone_back(percent, safe.as_deref()));
                 if let Some(document) = &mut self.document {
                     document.set_measured(generation, *report, safe, deviation);
                     // Of an older bound too: the view follows the slider as fast as levels are found.
@@ -105,8 +106,8 @@ impl State {
                         document.show_found();
                     }
                 }
-                if let Some(percent) = went_back {
-                    self.mention(&say!("app-gone-back", percent = decimal(percent, 1)));
+                if let Some(told) = went_back {
+                    self.mention(&told);
                 }
             }
             Event::Deviated(deviated) => {
@@ -167,6 +168,16 @@ impl State {
         self.settings = settings.clone();
         self.sent = settings;
         self.history.replace(&self.step());
+    }
+}
+
+/// That auto has gone back to a rate in percent, and why no further: as much as is known, and no more.
+fn gone_back(percent: f64, safe: Option<&Safe>) -> String {
+    let percent = decimal(percent, 1);
+    match safe.map(Safe::claim) {
+        Some(Claim::Safe) => say!("app-gone-back", percent = percent),
+        Some(Claim::NotPinched) => say!("app-gone-back-pinched", percent = percent),
+        Some(Claim::KeptWhereMeasured) | None => say!("app-gone-back-kept", percent = percent),
     }
 }
 
