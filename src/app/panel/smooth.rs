@@ -127,3 +127,25 @@ fn effect(ui: &mut Ui, smoothing: &Smoothing, state: &State, asked: &mut Vec<Act
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vessel::summary::fixtures::certificate;
+
+    #[test]
+    fn the_thinnest_place_is_the_thinnest_that_is_measured() {
+        let mut found = certificate(&[Some(0.5), Some(0.5)]).unwrap();
+        let standings = [StationStatus::End, StationStatus::Thin, StationStatus::Counts, StationStatus::Counts];
+        // A spur on a rim, and a vessel of 2.4 mm.
+        for (branch, radii) in found.branches.iter_mut().zip([[0.01, 0.02, 1.5, 1.2], [0.1, 0.2, 2.0, 1.9]]) {
+            branch.standings = standings.to_vec();
+            branch.opened.inscribed_radii_mm = radii.map(|radius: f32| Some(radius)).to_vec();
+        }
+        assert!((thinnest(&found).unwrap() - 2.4).abs() < 1e-6, "{:?}", thinnest(&found));
+        for branch in &mut found.branches {
+            branch.standings = vec![StationStatus::Thin; 4];
+        }
+        assert_eq!(thinnest(&found), None);
+    }
+}

@@ -189,3 +189,36 @@ fn sentence(text: &str) -> String {
     let end = if text.ends_with(['.', '!', '?']) { "" } else { "." };
     format!("{first}{}{end}", letters.as_str())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::safe::NoSafeRate;
+    use crate::vessel::certificate::Coverage;
+
+    #[test]
+    fn a_rate_that_auto_goes_back_to_is_called_safe_where_enough_is_measured_alone() {
+        let safe = |measured_mm: f64| Safe {
+            percent: Some(55.5),
+            coverage: Some(Coverage {
+                length_mm: 100.0,
+                measured_mm,
+                vessels: 2,
+                vessels_measured: 2,
+                ..Coverage::default()
+            }),
+            refused: None,
+            ..Safe::refused(2.0, NoSafeRate::NoneMeasured)
+        };
+        let told = [Some(safe(80.0)), Some(safe(40.0)), Some(Safe::refused(2.0, NoSafeRate::NoneMeasured)), None];
+        assert_eq!(
+            told.map(|safe| gone_back(55.5, safe.as_ref())),
+            [
+                "Reduced by 55.5 %: more would not be safe.",
+                "Reduced by 55.5 %: more would not keep the calibre where it is measured.",
+                "Reduced by 55.5 %: more would pinch a vessel.",
+                "Reduced by 55.5 %: more would not keep the calibre where it is measured.",
+            ]
+        );
+    }
+}

@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen_ui_tests::told::{put_on, wait};
-use lumen_ui_tests::{PHONE, app, in_hand, phone, settle, settle_wholly, unfold};
+use lumen_ui_tests::{PHONE, app, in_hand, phone, says, settle, settle_wholly, unfold};
 
 use crate::controls::shown;
 use crate::recovery::tell;
@@ -264,9 +264,11 @@ fn explains(harness: &App, words: &str) -> bool {
 fn a_tap_on_a_name_explains_it_until_the_next_tap() {
     let (mut harness, _) = phone();
     settle_wholly(&mut harness);
-    for (name, words) in
-        [("Pass band", "What passes the filter"), ("Safe to", "keeps its calibre to"), ("Triangles", "After and before the red")]
-    {
+    for (name, words) in [
+        ("Pass band", "What passes the filter"),
+        ("Safe to", "keeps its calibre to"),
+        ("Triangles", "After and before the red"),
+    ] {
         let at = harness.query_all_by_role_and_label(Role::Label, name).last().expect(name).rect().center();
         assert!(!explains(&harness, words), "{words} before {name} is tapped");
         tap(&mut harness, at);
@@ -281,10 +283,33 @@ fn a_tap_on_a_name_explains_it_until_the_next_tap() {
         tap(&mut harness, at);
         assert_eq!(explains(&harness, "What passes the filter"), is_shown);
     }
+    // A sentence that is cut off is whole there.
+    let told = |harness: &App| harness.query_all_by_label_contains("5 of 7 vessels were measured").count();
+    let (before, at) = (told(&harness), harness.get_by_label_contains("5 of 7 vessels were measured").rect().center());
+    tap(&mut harness, at);
+    assert_eq!(told(&harness), before + 1);
     // What is told goes by what points.
     harness.get_by_role_and_label(Role::Button, "Open in").click();
     harness.run_steps(3);
     assert!(explains(&harness, "Unit of the file's numbers"));
+}
+
+#[test]
+fn what_to_do_is_told_without_clicks_and_keys() {
+    let (mut harness, memory) = phone();
+    settle(&mut harness);
+    harness.key_press(Key::M);
+    harness.run_steps(4);
+    let speaks_of_a_mouse = |harness: &App| ["lick", "Esc", "(W, S)"].iter().any(|words| says(harness, words));
+    assert!(says(&harness, "then tap the surface") && !speaks_of_a_mouse(&harness));
+    for (tool, words) in [("Ruler", "Tap the first place"), ("Diameter", "Tap the wall"), ("Section", "Tap a vessel")] {
+        click(&mut harness, tool);
+        assert!(says(&harness, words) && !speaks_of_a_mouse(&harness), "{tool}");
+    }
+    harness.key_press(Key::M);
+    harness.run_steps(4);
+    put_on(&mut harness, &memory);
+    assert!(!speaks_of_a_mouse(&harness), "in a trial");
 }
 
 #[test]
