@@ -303,8 +303,8 @@ panel-safe-help = Bis hier behält jedes messbare Gefäß sein Kaliber auf { $to
 # $why is a part of a sentence.
 panel-safe-refused = Hier gibt es keine solche Rate: { $why }.
 panel-kept-to = Erhalten bis
-panel-safe-rests = Bei { $percent } % gemessen über { $coverage }; das Urteil gilt der gezeigten Stufe.
-panel-safe-rests-at = Bei { $percent } %: { $coverage }
+panel-safe-rests = Bei { $percent } % gemessen über { $coverage }; das Urteil gilt der gezeigten Stufe.
+panel-safe-rests-at = Bei { $percent } %: { $coverage }
 panel-safe-changed = Äste, die schon die Glättung stärker ändert, zählen nicht: { $count }.
 panel-safe-go-help = Setzt die Reduktion auf die Marke unter dem Regler
 panel-wanted = Anzahl Dreiecke

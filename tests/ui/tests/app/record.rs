@@ -84,7 +84,7 @@ fn case_and_comment_stand_in_the_report_alone_until_another_surface_is_opened() 
     let (mut harness, memory) = page(PHONE, Kept::default());
     settle_wholly(&mut harness);
     menu(&mut harness);
-    click(&mut harness, "Report...");
+    report(&mut harness, PHONE);
     write(&mut harness, Role::TextInput, "Case", "Case <12> & co");
     write(&mut harness, Role::MultilineTextInput, "Comment", "Stent planned.\nBring \"B\".");
     click(&mut harness, "Save as web page...");
@@ -96,6 +96,7 @@ fn case_and_comment_stand_in_the_report_alone_until_another_surface_is_opened() 
     }
     // It can be written again, but nothing else has it.
     menu(&mut harness);
+    click(&mut harness, "For the record");
     click(&mut harness, "Settings...");
     let (_, settings) = offered(&mut harness, &memory);
     harness.run_steps(12);
@@ -104,12 +105,12 @@ fn case_and_comment_stand_in_the_report_alone_until_another_surface_is_opened() 
         assert!(!["Case", "Stent"].iter().any(|said| text.contains(said)), "{text}");
     }
     menu(&mut harness);
-    click(&mut harness, "Report...");
+    report(&mut harness, PHONE);
     assert_eq!(said(&harness), ["Case <12> & co", "Stent planned.\nBring \"B\"."]);
     click(&mut harness, "Close");
     open(&mut harness, &memory, "other.obj", tube(5.0, 60.0, 1.0));
     menu(&mut harness);
-    click(&mut harness, "Report...");
+    report(&mut harness, PHONE);
     assert_eq!(said(&harness), ["", ""]);
     // Undo in the field brings back nothing of the surface before.
     harness.get_by_role_and_label(Role::MultilineTextInput, "Comment").focus();
