@@ -139,7 +139,12 @@ impl Setting<'_> {
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         if has_finger {
                             let shown = format!("{}{}", exact(self.rounded(*value)), self.unit);
-                            ui.add(Label::new(RichText::new(shown).small().strong()).truncate());
+                            // Rather the whole name than a part of it beside the number, which the slider tells roughly.
+                            let needed =
+                                [self.name, shown.as_str()].map(|text| small_width(ui, text)).iter().sum::<f32>();
+                            if needed + ui.spacing().item_spacing.x <= ui.available_width() {
+                                ui.label(RichText::new(shown).small().strong());
+                            }
                         } else {
                             self.typed(ui, value, way);
                         }
@@ -256,6 +261,12 @@ impl Setting<'_> {
         let scale = libm::pow(10.0, self.decimals as f64);
         ((value * scale).round() / scale).clamp(*self.range.start(), *self.range.end())
     }
+}
+
+/// The width of a text in small letters, in points.
+fn small_width(ui: &Ui, text: &str) -> f32 {
+    let galley = WidgetText::from(RichText::new(text).small().strong());
+    galley.into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Small).size().x
 }
 
 /// Shows a setting of the table: a slider, a box to tick or a list. What has no control of this kind (a limit, pieces, a

@@ -223,3 +223,29 @@ impl Set {
         ties
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use egui::{Context, RawInput};
+
+    use super::*;
+
+    #[test]
+    fn a_letter_that_leans_touches_no_bracket() {
+        let bracket = || Math::Upright(")".into());
+        let index = || Math::index(Math::Variable("k"), Math::Variable("i"));
+        let mut more = Vec::new();
+        let _ = Context::default().run_ui(RawInput::default(), |ui| {
+            let width = |math: &Math| math.set(ui, 20.0).size().x;
+            let ends = [Math::Variable("K"), index(), index().tied(Tie::Wave), Math::Upright("2".into())];
+            more = ends
+                .into_iter()
+                .map(|end| {
+                    let apart = width(&end) + width(&bracket());
+                    width(&Math::Row(vec![end, bracket()])) - apart
+                })
+                .collect();
+        });
+        assert!(more[..3].iter().all(|more| *more > 2.0) && more[3].abs() < 0.01, "{more:?}");
+    }
+}
