@@ -70,6 +70,13 @@ pub enum Action {
         /// What there is to say of it.
         label: String,
     },
+    /// Mark a stretch that the ringed place lies in, and what it is measured by: it goes with the ring.
+    MarkStretch {
+        /// Places along it, in mm.
+        along_mm: Vec<[f32; 3]>,
+        /// Places that are ringed besides, in mm, and what there is to say of them.
+        beside: Vec<([f32; 3], String)>,
+    },
     /// Take the ring off that marks a place.
     Unmark,
     /// Show other things in the views.

@@ -12,6 +12,7 @@ use super::action::Action;
 use super::assist::name;
 use super::axes;
 use super::control::progress;
+use super::explain::explain;
 use super::icon::{self, Icon};
 use super::menus::{icon_menu, long_menu, menu};
 use super::mode::{Entry, Group, Mode};
@@ -185,6 +186,33 @@ fn save(ui: &mut Ui, state: &State, shown: Shown<'_>, ask: &mut impl FnMut(bool,
         in_lines(ui, &verdict.in_short(tell), colour);
         ui.separator();
     }
+    if theme::suits_finger(ui.ctx()) || theme::is_narrow(ui.ctx()) {
+        // Rows for a finger: all of them at once are higher than a phone.
+        menu(ui, &say!("app-save-surface"), &mut |ui| of_surface(ui, state, ask));
+        menu(ui, &say!("app-save-vessels"), &mut |ui| of_vessels(ui, state, ask));
+        menu(ui, &say!("app-save-record"), &mut |ui| {
+            ask_record(record::report(ui, state.calibre().is_some()), ask);
+            settings_and_link(ui, shown, ask);
+        });
+        ask_record(record::pictures(ui, shown.record, shown.has_video), ask);
+    } else {
+        of_surface(ui, state, ask);
+        ui.separator();
+        of_vessels(ui, state, ask);
+        ui.separator();
+        ask_record(record::report(ui, state.calibre().is_some()), ask);
+        ask_record(record::pictures(ui, shown.record, shown.has_video), ask);
+        ui.separator();
+        settings_and_link(ui, shown, ask);
+    }
+    if let Some(mut keeps) = shown.keeps_surface {
+        ui.separator();
+        kept_here(ui, &mut keeps, ask);
+    }
+}
+
+/// The formats that the surface is saved in.
+fn of_surface(ui: &mut Ui, state: &State, ask: &mut impl FnMut(bool, Action)) {
     for format in Format::ALL {
         let text = format!("{}...", format.label());
         let unit = say!("app-save-lengths", unit = format.unit().to_string());
@@ -194,27 +222,30 @@ fn save(ui: &mut Ui, state: &State, shown: Shown<'_>, ask: &mut impl FnMut(bool,
     ask(levels.clicked(), Action::SaveLevels);
     ui.label(RichText::new(say!("app-save-all-lengths")).small().weak());
     axes::written(ui, state, ask);
-    ui.separator();
+}
+
+/// What is saved of the vessels.
+fn of_vessels(ui: &mut Ui, state: &State, ask: &mut impl FnMut(bool, Action)) {
     let has_vessels = state.calibre().is_some_and(|calibre| calibre.found.is_ok());
     ui.add_enabled_ui(has_vessels, |ui| {
         for (text, what, help) in vessels::FILES {
             ask(ui.button(text.say()).on_hover_text(help.say()).clicked(), Action::Vessels(what));
         }
     });
-    ui.separator();
-    if let Some(asked) = record::menu(ui, shown.record, state.calibre().is_some(), shown.has_video) {
+}
+
+fn ask_record(asked: Option<record::Action>, ask: &mut impl FnMut(bool, Action)) {
+    if let Some(asked) = asked {
         ask(true, Action::Record(asked));
     }
-    ui.separator();
+}
+
+fn settings_and_link(ui: &mut Ui, shown: Shown<'_>, ask: &mut impl FnMut(bool, Action)) {
     let save = ui.button(say!("app-save-settings")).on_hover_text(say!("app-save-settings-help"));
     ask(save.clicked(), Action::SaveSettings);
     if shown.has_links {
         let copy = ui.button(say!("app-copy-link")).on_hover_text(say!("app-copy-link-help"));
         ask(copy.clicked(), Action::CopyLink);
-    }
-    if let Some(mut keeps) = shown.keeps_surface {
-        ui.separator();
-        kept_here(ui, &mut keeps, ask);
     }
 }
 
@@ -282,6 +313,7 @@ fn of_views(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, ask: &m
 /// Files whose numbers are in another unit.
 fn units(ui: &mut Ui, ask: &mut impl FnMut(bool, Action)) {
     ui.set_min_width(ui.spacing().interact_size.x);
+    ui.label(RichText::new(say!("app-open-units")).small().weak());
     for unit in Unit::ALL {
         ask(ui.button(format!("{unit}...")).clicked(), Action::OpenIn(unit));
     }
@@ -403,7 +435,7 @@ fn in_lines(ui: &mut Ui, text: &str, colour: Color32) {
     job.wrap.max_rows = VERDICT_LINES;
     ui.scope(|ui| {
         ui.set_min_height(VERDICT_LINES as f32 * ui.text_style_height(&TextStyle::Small));
-        let response = ui.label(job).on_hover_text(text);
+        let response = explain(ui.label(job), text);
         name(&response, Role::Label, text);
     });
 }

@@ -5,16 +5,18 @@ use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 use egui::{
-    Align, ComboBox, Direction, DragValue, Key, Label, Layout, Modifiers, ProgressBar, RichText, Role, Slider, Ui, vec2,
+    Align, ComboBox, Direction, DragValue, Key, Label, Layout, Modifiers, ProgressBar, RichText, Role, Slider,
+    TextStyle, TextWrapMode, Ui, WidgetText, vec2,
 };
 
 use super::assist::{describe, name};
+use super::explain::explain;
 use super::icon::{self, Icon};
 use super::row::row;
 use super::swipe::Way;
 use super::theme;
 use super::tie::Tie;
-use crate::language::{inner, parse, text};
+use crate::language::{exact, grouped, inner, parse, text};
 use crate::pipeline::settings::Settings;
 use crate::pipeline::settings::table::{self, Kind, Value};
 use crate::say;
@@ -22,6 +24,9 @@ use crate::say;
 /// Height of a slider where a mouse points, and that of the row above it, in points.
 const ROW: f32 = 20.0;
 const NAME_ROW: f32 = 24.0;
+
+/// Height of the row above a slider where a finger points and there is next to no height, in points.
+const FLAT_ROW: f32 = 16.0;
 
 /// Width of a field beside its slider, in points.
 const FIELD: f32 = 64.0;
@@ -35,6 +40,9 @@ pub(super) enum Form {
     Tall,
     /// The name in small letters, and below it slider and field in a row: lower where rows have the height of a finger.
     Low,
+    /// Name and field in a row of small letters, and below them the slider: nothing else, where there is next to no height.
+    /// A finger reads the field, which would be as high as the slider.
+    Flat,
 }
 
 /// A number that can be set.
@@ -100,17 +108,17 @@ impl Setting<'_> {
                 // As high as the field: name, field and button stand on one line.
                 ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), NAME_ROW);
                 ui.horizontal(|ui| {
-                    ui.label(self.title()).on_hover_text(self.help.to_owned());
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         is_reset = self.reset(ui, *value);
                         self.typed(ui, value, way);
+                        self.named(ui, |text| text);
                     });
                 });
                 ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), ROW);
                 self.slider(ui, value, way, mark);
             }
             Form::Low => {
-                ui.add(Label::new(RichText::new(self.title()).small())).on_hover_text(self.help.to_owned());
+                explain(ui.add(Label::new(RichText::new(self.title()).small())), self.help);
                 // Closer to its own slider than to the one above.
                 ui.add_space(-LOW_GAP);
                 ui.horizontal(|ui| {
@@ -124,8 +132,43 @@ impl Setting<'_> {
                     });
                 });
             }
+            Form::Flat => {
+                let has_finger = theme::suits_finger(ui.ctx());
+                ui.spacing_mut().interact_size.y = if has_finger { FLAT_ROW } else { NAME_ROW };
+                ui.horizontal(|ui| {
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                        if has_finger {
+                            let shown = format!("{}{}", exact(self.rounded(*value)), self.unit);
+                            // Rather the whole name than a part of it beside the number, which the slider tells roughly.
+                            let needed =
+                                [self.name, shown.as_str()].map(|text| small_width(ui, text)).iter().sum::<f32>();
+                            if needed + ui.spacing().item_spacing.x <= ui.available_width() {
+                                ui.label(RichText::new(shown).small().strong());
+                            }
+                        } else {
+                            self.typed(ui, value, way);
+                        }
+                        self.named(ui, RichText::small);
+                    });
+                });
+                ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), ROW);
+                self.slider(ui, value, way, mark);
+            }
         }
         is_reset
+    }
+
+    /// The name in what is left of a row that is filled from the right: without what stands in brackets behind it where that
+    /// has no room.
+    fn named(&self, ui: &mut Ui, look: impl Fn(RichText) -> RichText) {
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            let words = |text: &str| WidgetText::from(look(RichText::new(text)));
+            let title = words(&self.title());
+            let galley = title.clone().into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Body);
+            let fits = galley.size().x <= ui.available_width();
+            let label = ui.add(Label::new(if fits { title } else { words(self.name) }).truncate());
+            explain(label, self.help);
+        });
     }
 
     /// What stands above the slider: the name, and whether it is set by itself.
@@ -220,6 +263,12 @@ impl Setting<'_> {
     }
 }
 
+/// The width of a text in small letters, in points.
+fn small_width(ui: &Ui, text: &str) -> f32 {
+    let galley = WidgetText::from(RichText::new(text).small().strong());
+    galley.into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Small).size().x
+}
+
 /// Shows a setting of the table: a slider, a box to tick or a list. What has no control of this kind (a limit, pieces, a
 /// target) shows nothing, nor does a setting without a name in the panel.
 pub(super) fn setting(ui: &mut Ui, setting: &table::Setting, settings: &mut Settings) {
@@ -298,6 +347,11 @@ pub(super) fn suffix(range: &table::Range) -> &'static str {
 /// Lets a field read what is typed with a decimal comma as with a point; `is_whole` where it holds a whole number.
 pub(super) fn reads_comma(field: DragValue<'_>, is_whole: bool) -> DragValue<'_> {
     field.custom_parser(move |text| parse(text, is_whole))
+}
+
+/// The same for a count, which is written in groups.
+pub(super) fn counts(field: DragValue<'_>) -> DragValue<'_> {
+    reads_comma(field, true).custom_formatter(|count, _| grouped(count.round()))
 }
 
 /// How far work is: a bar of this width, on a rail that is seen on a panel.

@@ -9,6 +9,7 @@ use super::action::Action;
 use super::assist::name;
 use super::deviating::{Deviating, UpTo};
 use super::document::Document;
+use super::explain::explain;
 use super::halo;
 use super::overlay::{self, Legend};
 use super::places::seen;
@@ -67,7 +68,7 @@ pub(super) fn choices(ui: &mut Ui, shown: &mut Deviating) {
         let signed = ui.checkbox(&mut shown.is_signed, say!("panel-signed"));
         signed.on_hover_text(say!("panel-signed-help"));
         ui.horizontal(|ui| {
-            ui.label(say!("panel-up-to")).on_hover_text(say!("panel-up-to-help"));
+            explain(ui.label(say!("panel-up-to")), &say!("panel-up-to-help"));
             for up_to in UpTo::ALL {
                 let value = up_to.label();
                 let label = ui.selectable_value(&mut shown.up_to, up_to, &value);

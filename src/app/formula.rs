@@ -17,6 +17,9 @@ const LOWER: f32 = 0.22;
 /// How far the bar of a fraction is above the base line, in heights of the letters.
 const BAR: f32 = 0.28;
 
+/// Room between a letter that leans and a bracket behind it, in heights of the letters.
+const LEAN: f32 = 0.14;
+
 /// A formula, or a part of one.
 #[derive(Clone, Debug)]
 pub(super) enum Math {
@@ -49,6 +52,27 @@ impl Math {
         Self::Tied(tie, Box::new(self))
     }
 
+    /// Whether it ends with a letter that leans over its width.
+    fn leans(&self) -> bool {
+        match self {
+            Self::Variable(_) => true,
+            Self::Row(parts) => parts.last().is_some_and(Self::leans),
+            Self::Index(both) => both[1].leans(),
+            Self::Tied(_, part) => part.leans(),
+            Self::Upright(_) | Self::Fraction(_) | Self::Sum(_) => false,
+        }
+    }
+
+    /// Whether it begins with a bracket or a stroke, which what leans would touch.
+    fn is_upright_stroke(&self) -> bool {
+        match self {
+            Self::Upright(text) => text.starts_with(['(', ')', '/']),
+            Self::Row(parts) => parts.first().is_some_and(Self::is_upright_stroke),
+            Self::Tied(_, part) => part.is_upright_stroke(),
+            Self::Variable(_) | Self::Index(_) | Self::Fraction(_) | Self::Sum(_) => false,
+        }
+    }
+
     /// Draws it from the left end of its base line at `size`, and says what it takes and what of it is tied.
     pub(super) fn set(&self, ui: &Ui, size: f32) -> Set {
         let letters = |text: &str, size: f32, italics: bool| {
@@ -63,7 +87,15 @@ impl Math {
         match self {
             Self::Upright(text) => letters(text, size, false),
             Self::Variable(text) => letters(text, size, true),
-            Self::Row(parts) => parts.iter().fold(Set::default(), |row, part| row.beside(part.set(ui, size), 0.0)),
+            Self::Row(parts) => {
+                let each = parts.iter().enumerate();
+                each.fold(Set::default(), |mut row, (i, part)| {
+                    if i > 0 && parts[i - 1].leans() && part.is_upright_stroke() {
+                        row.width += LEAN * size;
+                    }
+                    row.beside(part.set(ui, size), 0.0)
+                })
+            }
             Self::Index(both) => both[0].set(ui, size).beside(both[1].set(ui, INDEX * size), LOWER * size),
             Self::Fraction(both) => Set::fraction(both[0].set(ui, 0.9 * size), both[1].set(ui, 0.9 * size), size),
             Self::Sum(below) => Set::sum(letters("Σ", 1.5 * size, false), below.set(ui, 0.9 * INDEX * size), size),
@@ -189,5 +221,31 @@ impl Set {
             ui.painter().hline((from + at).x..=(from + at).x + length, (from + at).y, Stroke::new(1.0, colour));
         }
         ties
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Context, RawInput};
+
+    use super::*;
+
+    #[test]
+    fn a_letter_that_leans_touches_no_bracket() {
+        let bracket = || Math::Upright(")".into());
+        let index = || Math::index(Math::Variable("k"), Math::Variable("i"));
+        let mut more = Vec::new();
+        let _ = Context::default().run_ui(RawInput::default(), |ui| {
+            let width = |math: &Math| math.set(ui, 20.0).size().x;
+            let ends = [Math::Variable("K"), index(), index().tied(Tie::Wave), Math::Upright("2".into())];
+            more = ends
+                .into_iter()
+                .map(|end| {
+                    let apart = width(&end) + width(&bracket());
+                    width(&Math::Row(vec![end, bracket()])) - apart
+                })
+                .collect();
+        });
+        assert!(more[..3].iter().all(|more| *more > 2.0) && more[3].abs() < 0.01, "{more:?}");
     }
 }

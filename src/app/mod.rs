@@ -61,6 +61,7 @@ pub mod document;
 mod drawer;
 mod equations;
 mod error_plot;
+mod explain;
 mod filling;
 mod flight;
 mod formula;

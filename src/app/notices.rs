@@ -93,6 +93,14 @@ impl Notices {
         self.seen_s = None;
     }
 
+    /// Takes this away, told or not: it is so no longer.
+    pub fn withdraw(&mut self, text: &str) {
+        if self.newest().is_some_and(|notice| notice.text == text) {
+            self.seen_s = None;
+        }
+        self.all.retain(|notice| notice.text != text);
+    }
+
     /// Takes away everything: what follows is another matter.
     pub fn clear(&mut self) {
         self.all.clear();
@@ -158,6 +166,18 @@ mod tests {
         assert_eq!(told(&notices).as_deref(), Some("b.stl was not read."));
         notices.take_away();
         assert_eq!(told(&notices), None, "what was done before is old by now");
+    }
+
+    #[test]
+    fn what_is_so_no_longer_goes_wherever_it_stands() {
+        let mut notices = Notices::default();
+        for text in ["Presenting.", "Copied."] {
+            notices.tell(Kind::Done, text);
+        }
+        notices.withdraw("Presenting.");
+        assert_eq!(told(&notices).as_deref(), Some("Copied."));
+        notices.withdraw("Copied.");
+        assert_eq!(told(&notices), None);
     }
 
     #[test]

@@ -136,6 +136,13 @@ pub(super) fn ring(ui: &Ui, rect: Rect, camera: &Camera, at: Vec3, label: &str, 
     }
 }
 
+/// A line through places.
+pub(super) fn path(ui: &Ui, rect: Rect, camera: &Camera, places: &[Vec3], colour: Color32) {
+    let seen: Vec<Pos2> = places.iter().filter_map(|at| seen(*at, camera, rect)).collect();
+    let lines: Vec<[Pos2; 2]> = seen.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    halo::lines(&ui.painter_at(rect), &lines, Stroke::new(2.0, colour));
+}
+
 /// The same around a point of the window; none where it is not in `rect`.
 pub(super) fn ring_at(ui: &Ui, rect: Rect, middle: Pos2, label: &str, colour: Color32) {
     const RADIUS: f32 = 14.0;

@@ -7,6 +7,7 @@ use egui::{
 };
 
 use super::assist::{heading, name};
+use super::explain::explain;
 use super::theme;
 use crate::say;
 
@@ -198,7 +199,7 @@ pub(super) fn step(ui: &mut Ui, number: u32, name: &str, what: &str) {
 /// What on the left, the control on the right.
 pub(super) fn row(ui: &mut Ui, what: &str, help: &str, control: impl FnOnce(&mut Ui)) {
     ui.horizontal(|ui| {
-        ui.label(what).on_hover_text(help.to_owned());
+        explain(ui.label(what), help);
         ui.with_layout(Layout::right_to_left(Align::Center), control);
     });
 }
@@ -214,9 +215,7 @@ pub(super) fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
         // What follows may be for a finger.
         ui.spacing_mut().interact_size.y = before;
     }
-    if !help.is_empty() {
-        row.response.on_hover_text(help.to_owned());
-    }
+    explain(row.response, help);
 }
 
 /// A remark in small letters.

@@ -7,7 +7,7 @@ use egui::style::{KineticScrollStyle, NumberFormatter};
 use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, TextStyle, Theme, Visuals};
 use epaint_default_fonts::EGUI_ICONS;
 
-use crate::language::decimal;
+use crate::language::{Key, decimal};
 use crate::render::{Colour, Style};
 
 /// One step of the grid, in points.
@@ -106,6 +106,11 @@ pub(super) fn is_narrow(ctx: &egui::Context) -> bool {
 /// Whether controls are as large as a finger needs them.
 pub(super) fn suits_finger(ctx: &egui::Context) -> bool {
     ctx.global_style().spacing.interact_size.y >= FINGER
+}
+
+/// Of two messages the one that suits what points: a finger taps and has no keys.
+pub(super) fn by_hand(ctx: &egui::Context, mouse: Key, finger: Key) -> Key {
+    if suits_finger(ctx) { finger } else { mouse }
 }
 
 /// Height of a row that a mouse hits at `height`, in points: never lower than a finger needs it.

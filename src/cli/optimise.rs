@@ -172,7 +172,11 @@ impl Optimise {
         let auto = match report.auto {
             None => "",
             Some(found) if found.is_at_most() => " (auto)",
-            Some(_) => " (auto: as far as is safe)",
+            Some(_) => match &report.safe {
+                Some(safe) if safe.is_covered => " (auto: as far as is safe)",
+                Some(safe) if safe.percent.is_none() => " (auto: as far as no vessel is pinched)",
+                _ => " (auto: as far as vessels are kept where they are measured)",
+            },
         };
         row("reduction", format!("{:.2} %{auto}", report.reduction_percent));
         if let Some(safe @ SafeReport { percent: Some(percent), tolerance_percent, stopped_by, .. }) = &report.safe {

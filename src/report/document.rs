@@ -11,7 +11,7 @@ use super::words::{others, said};
 use crate::io::{Axes, ImportReport, ThresholdReport};
 use crate::language::{decimal, exact, grouped, inner, signed, tell};
 use crate::pipeline::caps::changes_percent;
-use crate::pipeline::report::{AutoReport, Report};
+use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Preset, Settings, Target};
 use crate::pipeline::verdict::{FindingKind, Verdict};
 use crate::say;
@@ -238,13 +238,16 @@ fn method(settings: &Settings) -> String {
 }
 
 /// What the target auto has come to.
-fn auto(found: Option<&AutoReport>) -> String {
-    let Some(found) = found else { return say!("compare-auto") };
+fn auto(report: &Report) -> String {
+    let Some(found) = &report.auto else { return say!("compare-auto") };
     let percent = decimal(found.percent, 1);
     if found.is_at_most() {
-        say!("report-target-auto", percent = percent)
-    } else {
-        say!("report-target-auto-safe", percent = percent)
+        return say!("report-target-auto", percent = percent);
+    }
+    match &report.safe {
+        Some(safe) if safe.is_covered => say!("report-target-auto-safe", percent = percent),
+        Some(safe) if safe.percent.is_none() => say!("report-target-auto-pinched", percent = percent),
+        _ => say!("report-target-auto-kept", percent = percent),
     }
 }
 
@@ -258,7 +261,7 @@ fn settings(report: &Report) -> Vec<Row> {
     };
     let target = settings.target;
     let target = match target {
-        Target::Auto => auto(report.auto.as_ref()),
+        Target::Auto => auto(report),
         Target::Reduction(_) => say!("report-target-reduction", percent = decimal(target.percent(1), 1)),
         Target::Triangles(count) => say!("report-target-triangles", count = count),
         Target::Deviation(_) => say!("report-target-deviation", most = exact(target.deviation_mm().unwrap_or(0.0))),

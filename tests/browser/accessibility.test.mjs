@@ -39,16 +39,34 @@ test("every screen passes axe", { timeout: 300_000 }, async (t) => {
     await page.keyboard.press("Escape");
     await frames(page, 10);
   }
-  for (const [key, screen] of [["v", "the vessels"], ["c", "the comparison"]]) {
+  const keys = [["v", "the vessels"], ["c", "the comparison"], ["m", "the measures"], ["p", "presenting"]];
+  for (const [key, screen] of keys) {
     await page.keyboard.press(key);
     await settled(page);
     await isAccessible(page, screen);
     await page.keyboard.press("Escape");
     await frames(page, 10);
   }
+  for (const [menu, role, item] of [
+    ["Save", "menuitem", "Report..."],
+    ["Learn", "menuitem", "Glossary"],
+    ["Learn", "menuitem", "What a wire feels"],
+  ]) {
+    await press(page, "button", menu);
+    await press(page, role, item);
+    await isAccessible(page, item);
+    await page.keyboard.press("Escape");
+    await frames(page, 10);
+  }
   await press(page, "button", "Trial");
   await atEntry(page);
   await isAccessible(page, "the trial");
+});
+
+test("a part of another page passes axe", { timeout: 120_000 }, async (t) => {
+  const context = { ...COARSE, viewport: { width: 500, height: 320 } };
+  const { page } = await openApp(t, browser, { context, query: "?embed&samples=10000" });
+  await isAccessible(page, "as it starts");
 });
 
 test("a phone's screen passes axe", { timeout: 120_000 }, async (t) => {

@@ -18,6 +18,7 @@ mod glue;
 #[cfg(test)]
 mod house;
 mod instructions;
+mod lacking;
 mod lint;
 mod package;
 mod page;
@@ -66,6 +67,9 @@ enum Command {
         /// long.
         #[arg(long)]
         long: bool,
+        /// Fail where something would be skipped because this machine lacks what it needs.
+        #[arg(long)]
+        whole: bool,
     },
     /// Look for misspelt words, and for dependencies of a licence or source that is not allowed.
     Lint,
@@ -121,13 +125,13 @@ fn main() -> ExitCode {
             serve::take_port(port).and_then(|server| serve::serve(&server, &build::build()?, open))
         }
         Command::Build => build::build().map(|_| ()),
-        Command::Test { only, quick, long } => {
+        Command::Test { only, quick, long, whole } => {
             let extent = match (quick, long) {
                 (true, _) => test::Extent::Quick,
                 (_, true) => test::Extent::Long,
                 _ => test::Extent::Ordinary,
             };
-            test::test(&only, extent)
+            test::test(&only, extent, whole)
         }
         Command::Lint => lint::lint(),
         Command::Peers(options) => peers::peers(&options),

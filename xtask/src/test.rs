@@ -8,6 +8,7 @@ use anyhow::{Context as _, Result, anyhow, bail};
 use clap::ValueEnum;
 
 use crate::estimate::Estimate;
+use crate::lacking::{self, Machine};
 use crate::package::npm;
 use crate::step::{cargo, files_below, name, root, step, target};
 use crate::{build, firmware, tools};
@@ -94,14 +95,22 @@ impl Counts {
     }
 }
 
-/// Runs the suites named in `only`, or all of them, and fails if a test fails.
-pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
-    let wanted = |suite| only.is_empty() || only.contains(&suite);
+/// Runs the suites named in `only`, or all of them, and fails if a test fails. What the machine lacks is told first and what
+/// needs it is skipped; where `is_whole`, or where a suite is named that cannot be run at all, that is a failure.
+pub(crate) fn test(only: &[Suite], extent: Extent, is_whole: bool) -> Result<()> {
+    let asked: Vec<Suite> =
+        [Suite::Native, Suite::Browser].into_iter().filter(|suite| only.is_empty() || only.contains(suite)).collect();
+    let machine = Machine::prepared(&asked, extent)?;
+    machine.told().iter().for_each(|line| println!("{line}"));
+    if !machine.told().is_empty() && is_whole || !machine.browses() && only == [Suite::Browser] {
+        bail!("not every test can be run here");
+    }
+    let wanted = |suite| asked.contains(&suite) && (suite != Suite::Browser || machine.browses());
     let suites =
         [(Suite::Native, "native"), (Suite::Browser, "browser")].into_iter().filter(|(suite, _)| wanted(*suite));
     let names: Vec<&str> = extent.name().into_iter().chain(suites.map(|(_, name)| name)).collect();
     let mut estimate = Estimate::new(&names.join("-"));
-    let mut total = Counts::default();
+    let mut total = Counts { ignored: machine.left_out(), ..Counts::default() };
     let mut sound = true;
     let mut add = |(counts, ended_well): (Counts, bool)| {
         total.add(counts);
@@ -111,7 +120,7 @@ pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
         // Linking and wasm-opt are one thread for minutes: they go on beside the native tests.
         let built = wanted(Suite::Browser).then(|| scope.spawn(move || Built::new(extent)));
         let native = if wanted(Suite::Native) {
-            native(extent, &mut estimate).map(&mut add).and_then(|()| match extent {
+            native(&machine, extent, &mut estimate).map(&mut add).and_then(|()| match extent {
                 Extent::Quick => Ok(()),
                 _ => firmware::firmware(),
             })
@@ -121,7 +130,7 @@ pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
         estimate.end();
         let browser = match built.map(std::thread::ScopedJoinHandle::join) {
             None => Ok(()),
-            Some(Ok(Ok(built))) => browser(&built, extent, &mut estimate).map(&mut add),
+            Some(Ok(Ok(built))) => browser(&machine, &built, extent, &mut estimate).map(&mut add),
             Some(Ok(Err(error))) => Err(error),
             Some(Err(_)) => Err(anyhow!("the build of the browser app panicked")),
         };
@@ -129,6 +138,8 @@ pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
     });
     estimate.keep();
     println!("{} passed, {} failed, {} skipped", total.passed, total.failed, total.ignored);
+    // Where they are seen: what was told at the start is far above.
+    machine.told().iter().for_each(|line| println!("{line}"));
     done?;
     if total.failed > 0 || !sound {
         bail!("not every test passed");
@@ -136,28 +147,30 @@ pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
     Ok(())
 }
 
-fn native(extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
-    tools::vulkan()?;
-    let display = tools::display()?;
-    let python = match extent {
-        Extent::Quick => None,
-        Extent::Ordinary => Some(tools::package_python()?),
-        Extent::Long => Some(tools::wheel_python()?),
+fn native(machine: &Machine, extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
+    let whole = |arguments: &[&str]| arguments.iter().map(|argument| (*argument).to_owned()).collect::<Vec<_>>();
+    let all = match (extent, machine.draws()) {
+        (Extent::Quick, true) => QUICK.0.map(whole).to_vec(),
+        // The second is the window's.
+        (Extent::Quick, false) => vec![whole(QUICK.0[0])],
+        (_, true) => vec![whole(ALL)],
+        (_, false) => lacking::without_drawing(ALL).to_vec(),
     };
-    let runs: &[&[&str]] = match extent {
-        Extent::Quick => &QUICK.0,
-        Extent::Ordinary => &[ALL, XTASK],
-        Extent::Long => &[ALL, XTASK, BARE],
+    let rest: &[&[&str]] = match extent {
+        Extent::Quick => &[],
+        Extent::Ordinary => &[XTASK],
+        Extent::Long => &[XTASK, BARE],
     };
+    let runs = all.into_iter().chain(rest.iter().map(|arguments| whole(arguments)));
     estimate.begin("compile the native tests");
     let (mut counts, mut ended_well) = (Counts::default(), true);
     step("Run the native tests", || {
         for arguments in runs {
-            let mut command = cargo_test(display.as_deref(), arguments)?;
+            let mut command = cargo_test(machine.display.as_deref(), &arguments)?;
             if extent == Extent::Long {
                 command.env("LUMEN_LONG", "1");
             }
-            if let Some(python) = &python {
+            if let Some(python) = &machine.python {
                 // The Python package is compared with the command line.
                 command.env("LUMEN_PYTHON", python).env("LUMEN_PROGRAM", program());
             }
@@ -175,7 +188,7 @@ fn program() -> PathBuf {
 }
 
 /// `cargo test` on a display.
-fn cargo_test(display: Option<&Path>, arguments: &[&str]) -> Result<Command> {
+fn cargo_test(display: Option<&Path>, arguments: &[String]) -> Result<Command> {
     let cargo = cargo();
     let mut command = match display {
         Some(xvfb_run) => {
@@ -238,9 +251,9 @@ impl Built {
     }
 }
 
-fn browser(built: &Built, extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
+fn browser(machine: &Machine, built: &Built, extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     let npm = tools::npm()?;
-    let chromium = tools::chromium()?;
+    let chromium = machine.chromium.as_ref().context("there is no browser")?;
     let mut files: Vec<_> = ["tests/browser", "tests/npm"]
         .into_iter()
         .map(|folder| files_below(&root().join(folder)))

@@ -10,6 +10,18 @@ use anyhow::{Context as _, Result, bail};
 
 use crate::step::{cargo, on_path, output, root, run, step, target};
 
+/// What is not there and cannot be installed here, and in one line how it is got.
+#[derive(Debug)]
+pub(crate) struct Missing(pub(crate) String);
+
+impl std::fmt::Display for Missing {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Missing {}
+
 /// The wasm target of the toolchain in use.
 pub(crate) fn wasm_target() -> Result<()> {
     const TARGET: &str = "wasm32-unknown-unknown";
@@ -128,7 +140,14 @@ fn python(folder: &Path, asked: &str, what: &str) -> Result<PathBuf> {
     if bin.is_file() && std::fs::read(&done).ok() == std::fs::read(&asked).ok() {
         return Ok(bin);
     }
-    let python = on_path(&["python3", "python.exe"]).context("Python is missing: install Python 3.10 or newer")?;
+    const NAMES: [&str; 2] = ["python3", "python.exe"];
+    let python = match on_path(&NAMES) {
+        Some(python) => python,
+        None => {
+            apt("Python", "python3 python3-venv", "install Python 3.10 or newer")?;
+            on_path(&NAMES).context("apt installed Python, but it is not on the PATH")?
+        }
+    };
     // Debian has the module that this needs in a package of its own.
     if output(Command::new(&python).args(["-c", "import ensurepip, venv"])).is_none() {
         apt("Python's venv", "python3-venv", "install Python with its standard library")?;
@@ -186,11 +205,44 @@ pub(crate) fn chromium() -> Result<PathBuf> {
         return Ok(named.into());
     }
     const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
-    if let Some(found) = on_path(&NAMES) {
-        return Ok(found);
+    let found: Vec<PathBuf> = NAMES.iter().filter_map(|name| on_path(&[name])).collect();
+    if let Some(found) = found.iter().find(|path| !is_snap(path)) {
+        return Ok(found.clone());
+    }
+    if let Some(stub) = found.first() {
+        // Where there is one, apt has no other.
+        bail!(Missing(format!(
+            "{} only starts a snap, which tests cannot drive: name another Chromium in the environment variable CHROMIUM \
+             (npx playwright install chromium gets one)",
+            stub.display()
+        )));
     }
     apt("Chromium", "chromium", "name one in the environment variable CHROMIUM")?;
     on_path(&NAMES).context("apt installed chromium, but it is not on the PATH")
+}
+
+/// Longest script that is taken for one that only starts something else, in bytes.
+const STUB: u64 = 16 << 10;
+
+/// Whether a program is a stub that starts a snap: it cannot read what tests give it, and there may be no snap.
+fn is_snap(program: &Path) -> bool {
+    let is_small = std::fs::metadata(program).is_ok_and(|found| found.len() <= STUB);
+    let script = if is_small { std::fs::read(program).unwrap_or_default() } else { Vec::new() };
+    let is_link = std::fs::canonicalize(program).is_ok_and(|path| path.ends_with("snap"));
+    is_link || calls_snap(&script) || {
+        let asked = Command::new(program).arg("--version").output();
+        asked.is_ok_and(|asked| !asked.status.success() && speaks_of_snap(&[asked.stdout, asked.stderr].concat()))
+    }
+}
+
+/// Whether a script starts a snap.
+fn calls_snap(script: &[u8]) -> bool {
+    script.starts_with(b"#!") && speaks_of_snap(script)
+}
+
+fn speaks_of_snap(text: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(text).to_lowercase();
+    text.split(|letter: char| !letter.is_alphanumeric()).any(|word| word == "snap")
 }
 
 /// What a window needs on a machine without a display: `None` where there is a display.
@@ -264,7 +316,7 @@ fn apt(what: &str, package: &str, instead: &str) -> Result<()> {
     let is_root = output(Command::new("id").arg("-u")).as_deref() == Some("0");
     let may_sudo = !is_root && output(Command::new("sudo").args(["-n", "true"])).is_some();
     if on_path(&["apt-get"]).is_none() || !(is_root || may_sudo) {
-        bail!("{what} is missing: sudo apt-get install {package} (Debian, Ubuntu), or {instead}");
+        bail!(Missing(format!("{what} is missing: sudo apt-get install {package} (Debian, Ubuntu), or {instead}")));
     }
     let apt_get = |arguments: &[&str]| {
         let mut command = Command::new(if is_root { "apt-get" } else { "sudo" });
@@ -278,4 +330,19 @@ fn apt(what: &str, package: &str, instead: &str) -> Result<()> {
         let packages: Vec<&str> = package.split(' ').collect();
         apt_get(&[&["install", "--yes", "--no-install-recommends"], &packages[..]].concat())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_script_that_starts_a_snap_is_no_browser() {
+        let ubuntu =
+            "#!/bin/sh\nif ! [ -x /snap/bin/chromium ]; then\n  echo 'Command requires the chromium snap' >&2\nfi\n";
+        assert!(calls_snap(ubuntu.as_bytes()));
+        let debian = "#!/bin/sh\n# Snapshots are kept.\nexec /usr/lib/chromium/chromium \"$@\"\n";
+        assert!(!calls_snap(debian.as_bytes()) && !calls_snap(b"\x7fELF snap"));
+        assert!(speaks_of_snap(b"Please install it with: snap install chromium") && !speaks_of_snap(b"Chromium 140"));
+    }
 }

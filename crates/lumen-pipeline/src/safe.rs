@@ -127,7 +127,27 @@ pub struct BranchSafe {
     pub changed_from_percent: Option<f64>,
 }
 
+/// What a rate stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Claim {
+    /// It is safe for the whole surface: enough is measured, and kept.
+    Safe,
+    /// Vessels are kept up to it where they are measured, which is not enough for the whole surface.
+    KeptWhereMeasured,
+    /// No vessel is pinched up to it; of their calibre nothing is known beyond it, or nothing at all.
+    NotPinched,
+}
+
 impl Safe {
+    /// What the rate stands for that it goes up to: by the coverage that the verdict on that level has.
+    pub fn claim(&self) -> Claim {
+        match (&self.stopped_by, self.percent) {
+            _ if self.is_covered() => Claim::Safe,
+            (Some(Stop::Pinched(_)), _) | (_, None) => Claim::NotPinched,
+            _ => Claim::KeptWhereMeasured,
+        }
+    }
+
     /// The rate of [`Target::Auto`] in tenths of a percent: 90 %, or the highest that is safe where that is less. Where no
     /// vessel can be measured there is no such rate, and the first `pinch` alone stops it.
     pub fn auto(&self, pinch: Option<Pinch>) -> u32 {
@@ -379,6 +399,37 @@ mod tests {
         let refused = Safe::refused(2.0, NoSafeRate::NoneMeasured);
         let pinched = [None, Some(50.0), Some(95.0), Some(0.0)].map(|from| refused.auto(from.map(pinch)));
         assert_eq!(pinched, [900, 499, 900, 0]);
+    }
+
+    #[test]
+    fn a_rate_is_called_safe_only_where_enough_is_measured() {
+        let pinch = Pinch {
+            from_percent: 60.0,
+            triangles: 100,
+            at_mm: [0.0; 3],
+            diameter_before_mm: 2.0,
+            diameter_after_mm: 0.0,
+        };
+        let changed = Stop::Unmeasured { rate: 56.0, name: branch(1, None).label() };
+        let measured = |percent: f64| Coverage {
+            length_mm: 100.0,
+            measured_mm: percent,
+            vessels: 2,
+            vessels_measured: 2,
+            ..Coverage::default()
+        };
+        let safe = |stopped_by: &Stop, measured_percent: f64| Safe {
+            percent: Some(55.5),
+            coverage: Some(measured(measured_percent)),
+            stopped_by: Some(stopped_by.clone()),
+            refused: None,
+            ..Safe::refused(2.0, NoSafeRate::NoneMeasured)
+        };
+        assert_eq!(safe(&changed, 80.0).claim(), Claim::Safe);
+        assert_eq!(safe(&changed, 74.0).claim(), Claim::KeptWhereMeasured);
+        assert_eq!(safe(&Stop::Pinched(pinch.message()), 80.0).claim(), Claim::Safe);
+        assert_eq!(safe(&Stop::Pinched(pinch.message()), 74.0).claim(), Claim::NotPinched);
+        assert_eq!(Safe::refused(2.0, NoSafeRate::NoneMeasured).claim(), Claim::NotPinched);
     }
 
     #[test]

@@ -153,14 +153,14 @@ impl Collapses {
             ask(ui.button(say!("views-close")).on_hover_text(say!("views-close-help")).clicked(), Action::Toggle);
         });
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            for line in self.words(state) {
+            for line in self.words(state, theme::suits_finger(ui.ctx())) {
                 wrapped(ui, &line, |text| text);
             }
         });
     }
 
     /// What there is to say.
-    fn words(&self, state: &State) -> Vec<String> {
+    fn words(&self, state: &State, has_finger: bool) -> Vec<String> {
         let mut said = Vec::new();
         let Some((shown, document)) = self.shown().zip(state.document.as_ref()) else { return said };
         let Some((levels, level)) = document.levels.as_ref().zip(document.shown.as_ref()) else { return said };
@@ -189,6 +189,7 @@ impl Collapses {
         }
         match &shown.asked {
             Some((node, ways)) => said.extend(answer(*node, ways, document, &state.settings.decimation)),
+            None if has_finger => said.push(say!("views-click-vertex-touch")),
             None => said.push(say!("views-click-vertex")),
         }
         said

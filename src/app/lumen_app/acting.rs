@@ -1,6 +1,7 @@
 //! What the app does of what controls and keys ask for.
 
 use egui::{Context, Key, Modifiers, Ui};
+use glam::Vec3;
 
 use super::LumenApp;
 use crate::app::action::Action;
@@ -55,6 +56,7 @@ impl LumenApp {
             Action::Set(_) | Action::Undo | Action::Redo | Action::Theme => true,
             Action::View(_) | Action::Show(_) | Action::Fit | Action::Reveal | Action::HoldBefore(_) => true,
             Action::GoTo { .. } | Action::LookAt { .. } | Action::Mark { .. } | Action::Unmark => true,
+            Action::MarkStretch { .. } => true,
             Action::Cancel => self.state.opening().is_none() && self.state.document.is_some(),
             _ => false,
         }
@@ -222,13 +224,19 @@ impl LumenApp {
             }
             Action::View(view) => self.views.look_from(view, state.document.as_ref(), keep),
             Action::GoTo { at_mm, height_mm, label } => {
-                self.views.go_to(Spot { at: at_mm.into(), label }, height_mm);
+                self.views.go_to(Spot::new(at_mm, label), height_mm);
             }
             Action::LookAt { at_mm, height_mm } => {
                 self.views.spot = None;
                 self.views.fly(at_mm.into(), height_mm);
             }
-            Action::Mark { at_mm, label } => self.views.spot = Some(Spot { at: at_mm.into(), label }),
+            Action::Mark { at_mm, label } => self.views.spot = Some(Spot::new(at_mm, label)),
+            Action::MarkStretch { along_mm, beside } => {
+                if let Some(spot) = &mut self.views.spot {
+                    spot.along = along_mm.into_iter().map(Vec3::from).collect();
+                    spot.beside = beside.into_iter().map(|(at_mm, label)| (at_mm.into(), label)).collect();
+                }
+            }
             Action::Unmark => self.views.spot = None,
             Action::Show(options) => self.views.options = options,
             Action::ChoosePieces => {
@@ -268,8 +276,11 @@ impl LumenApp {
             }
             Action::Present => {
                 self.presenter.toggle(ctx);
+                let told = say!("app-presenting");
                 if self.presenter.is_on() {
-                    state.tell(&say!("app-presenting"));
+                    state.tell(&told);
+                } else {
+                    state.notices.withdraw(&told);
                 }
             }
             Action::Speak(language) => {

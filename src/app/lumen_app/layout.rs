@@ -1,6 +1,8 @@
 //! Where everything stands in the window: bars, panels, views and what lies over them.
 
-use egui::{CentralPanel, Frame, Hyperlink, Margin, Panel, RichText, Ui};
+use egui::{
+    Align, CentralPanel, Frame, Hyperlink, Layout, Margin, Panel, RichText, TextStyle, TextWrapMode, Ui, WidgetText,
+};
 
 use super::LumenApp;
 use crate::app::action::Action;
@@ -16,8 +18,11 @@ use crate::say;
 /// From this width on there is room for a plot beside the views while someone presents, in points.
 const ROOM_TO_PRESENT: f32 = 800.0;
 
-/// From this height on, below all that stands beneath the views, a part of another page has room for the verdict, in points.
-const ROOM_FOR_VERDICT: f32 = 200.0;
+/// What the verdict leaves of the height to the views in a part of another page: where it is less, there is none, in points.
+const LEFT_TO_VIEWS: f32 = 140.0;
+
+/// A part of another page that is lower than this shows the sliders in a row, and nothing that they lead to, in points.
+const LOW: f32 = 480.0;
 
 impl LumenApp {
     /// Shows the bars and the panel, and does what is asked for there.
@@ -43,7 +48,14 @@ impl LumenApp {
                 bar::top(ui, &self.state, &self.views, shown, &mut asked);
             });
         }
-        let inside = ui.available_width() - bar.inner_margin.sum().x;
+        let is_low = self.is_low(ui);
+        let mut inside = ui.available_width() - bar.inner_margin.sum().x;
+        let whole = is_low.then(|| self.whole()).flatten();
+        if whole.is_some() {
+            let words = WidgetText::from(RichText::new(say!("app-whole")).small());
+            let galley = words.into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Small);
+            inside -= galley.size().x + ui.spacing().item_spacing.x;
+        }
         let notice = bar::notice(ui, &self.state, &self.views, is_narrow, inside);
         let height = notice.as_ref().map_or(0.0, |notice| notice.size().y).max(theme::row(ui.ctx(), 28.0));
         Panel::bottom("status").frame(bar).exact_size(height + 12.0).show(ui, |ui| {
@@ -51,10 +63,22 @@ impl LumenApp {
             // taken off.
             ui.set_min_height(height);
             let now = self.now(mode);
-            let is_told = self.panels.all().into_iter().any(|panel| panel.show_status(ui, now, &mut asked));
-            let progress = self.record.progress();
-            let is_read =
-                !is_told && bar::status(ui, &self.state, &self.views, notice, progress, is_narrow, &mut asked);
+            let mut is_read = false;
+            let mut status = |ui: &mut Ui| {
+                let is_told = self.panels.all().into_iter().any(|panel| panel.show_status(ui, now, &mut asked));
+                let progress = self.record.progress();
+                is_read = !is_told
+                    && bar::status(ui, &self.state, &self.views, notice.clone(), progress, is_narrow, &mut asked);
+            };
+            match whole {
+                Some(link) => {
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                        way_to_whole(ui, link);
+                        ui.with_layout(Layout::left_to_right(Align::Center), status);
+                    });
+                }
+                None => status(ui),
+            }
             if let Some(left) = self.state.notices.follow(ui.input(|input| input.time), is_read) {
                 ui.ctx().request_repaint_after(left);
             }
@@ -92,11 +116,13 @@ impl LumenApp {
         let part = if feet.is_empty() { 0.45 } else { 0.35 };
         self.side(ui, mode, takes_panel, part, &mut asked);
         // A small part of another page has room for the views and what is dragged.
-        let has_verdict = !is_embedded || ui.available_height() >= ROOM_FOR_VERDICT;
+        let strip = verdict::Strip { is_narrow, is_part: is_embedded, is_low };
+        let height = strip.height(ui.ctx()) + 8.0;
+        let has_verdict = !is_embedded || ui.available_height() >= LEFT_TO_VIEWS + height;
         if mode == Mode::Method && takes_panel.is_none() && has_verdict {
-            let strip = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 4));
-            Panel::top("verdict").frame(strip).exact_size(verdict::height(ui.ctx(), is_narrow) + 8.0).show(ui, |ui| {
-                verdict::show(ui, &self.state, self.views.options, (is_narrow, is_embedded), &mut asked);
+            let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 4));
+            Panel::top("verdict").frame(frame).exact_size(height).show(ui, |ui| {
+                verdict::show(ui, &self.state, self.views.options, strip, &mut asked);
             });
         }
         if mode == Mode::Method {
@@ -247,18 +273,23 @@ impl LumenApp {
     /// asked for.
     fn dock(&mut self, ui: &mut Ui) {
         let mut asked = Vec::new();
-        ui.push_id("dock", |ui| panel::dock(ui, &self.state, &mut asked));
+        let show = if self.is_low(ui) { panel::flat_dock } else { panel::dock };
+        ui.push_id("dock", |ui| show(ui, &self.state, &mut asked));
         self.act_on_all(asked, ui.ctx());
     }
 
     /// Shows what of the method stays in sight while someone presents.
     fn presented(&mut self, ui: &mut Ui, mode: Mode) {
         let margin = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
+        if self.is_low(ui) {
+            let margin = margin.inner_margin(Margin::symmetric(12, 4));
+            Panel::bottom("dock").frame(margin).show(ui, |ui| row::docked(ui, |ui| self.dock(ui)));
+            return;
+        }
         Panel::bottom("dock").frame(margin).show(ui, |ui| {
             row::docked(ui, |ui| self.dock(ui));
             if let Some(link) = self.whole() {
-                let whole = Hyperlink::from_label_and_url(RichText::new(say!("app-whole")).small(), link);
-                ui.add(whole.open_in_new_tab(true)).on_hover_text(say!("app-whole-help"));
+                way_to_whole(ui, link);
             }
         });
         let has_response =
@@ -269,6 +300,11 @@ impl LumenApp {
                 panel::present_response(ui, &self.state);
             });
         }
+    }
+
+    /// Whether this is a part of another page with next to no height.
+    fn is_low(&self, ui: &Ui) -> bool {
+        self.platform.is_embedded() && ui.ctx().content_rect().height() < LOW
     }
 
     /// The address of the whole program with what is shown here, where this is a part of another page.
@@ -343,6 +379,7 @@ impl LumenApp {
 
     /// Shows the two views of the method; what a click in them asks for.
     fn show_views(&mut self, ui: &mut Ui) -> Option<Action> {
+        let shape = (self.is_narrow, self.is_low(ui));
         let State { document, settings, measures, .. } = &self.state;
         let (document, keep) = (document.as_ref(), settings.keep);
         self.views.take_slices(self.panels.scan.scans.kept(document.map(|document| &document.source)));
@@ -352,7 +389,7 @@ impl LumenApp {
             is_measuring: self.beside == Beside::Measure,
             collapses: &self.panels.collapses,
         };
-        let piece = match self.views.show(ui, subject, &mut over, self.is_narrow)? {
+        let piece = match self.views.show(ui, subject, &mut over, shape)? {
             Clicked::Place(asked) => return Some(asked),
             Clicked::Measure(asked) => return Some(Action::Measure(asked)),
             Clicked::Vertex(node) => return Some(Action::Collapses(collapses::Action::Why(node))),
@@ -363,4 +400,10 @@ impl LumenApp {
         let keep = if adds { pieces.toggled(keep, piece) } else { pieces.only(piece) };
         Some(Action::Set(Box::new(Settings { keep, ..settings.clone() })))
     }
+}
+
+/// The way from a part of another page to the whole program.
+fn way_to_whole(ui: &mut Ui, link: String) {
+    let whole = Hyperlink::from_label_and_url(RichText::new(say!("app-whole")).small(), link);
+    ui.add(whole.open_in_new_tab(true)).on_hover_text(say!("app-whole-help"));
 }

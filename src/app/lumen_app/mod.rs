@@ -251,6 +251,13 @@ impl LumenApp {
         &self.views.camera
     }
 
+    /// What is marked besides the place that is ringed: the stretch that it lies in, in mm, and what is said of places beside it.
+    pub fn marked(&self) -> (Vec<[f32; 3]>, Vec<&str>) {
+        let spot = self.views.spot.as_ref();
+        let along = spot.iter().flat_map(|spot| &spot.along).map(glam::Vec3::to_array).collect();
+        (along, spot.iter().flat_map(|spot| &spot.beside).map(|(_, label)| label.as_str()).collect())
+    }
+
     /// How many pictures of the trial were drawn since its views were shown.
     pub fn trial_draws(&self) -> u64 {
         self.panels.trial.view.draws()

@@ -13,6 +13,7 @@ use crate::app::mode::Now;
 use crate::app::row::{remark, row, warning, wrapped};
 use crate::app::state::State;
 use crate::app::theme;
+use crate::language::Key;
 use crate::mesh::Vec3;
 use crate::render::Camera;
 use crate::say;
@@ -60,10 +61,16 @@ fn tools(ui: &mut Ui, measuring: &Measuring, ask: &mut impl FnMut(Asked)) {
     match (&measuring.why, measuring.tool) {
         (Some(why), _) => warning(ui, why),
         (None, Some(tool)) => {
-            let hint = tool.hint(measuring.begun.len()).say();
-            remark(ui, &say!("measure-hint", hint = hint));
+            let [click, tap] = tool.hint(measuring.begun.len());
+            let hint = theme::by_hand(ui.ctx(), click, tap).say();
+            // A finger has no keys.
+            let told =
+                if theme::suits_finger(ui.ctx()) { format!("{hint}.") } else { say!("measure-hint", hint = hint) };
+            remark(ui, &told);
         }
-        (None, None) => remark(ui, &say!("measure-choose")),
+        (None, None) => {
+            remark(ui, &theme::by_hand(ui.ctx(), Key("measure-choose"), Key("measure-choose-touch")).say());
+        }
     }
 }
 

@@ -44,16 +44,16 @@ impl Tool {
         }
     }
 
-    /// What the next click does, when some places are there already.
-    pub(super) fn hint(self, places: usize) -> Key {
+    /// What the next click does, and what the next tap, when some places are there already.
+    pub(super) fn hint(self, places: usize) -> [Key; 2] {
         match (self, places) {
-            (Self::Ruler | Self::Angle, 0) => Key("measure-click-first"),
-            (Self::Ruler, _) => Key("measure-click-end"),
-            (Self::Angle, 1) => Key("measure-click-vertex"),
-            (Self::Angle, _) => Key("measure-click-last"),
-            (Self::Diameter, _) => Key("measure-point-wall"),
-            (Self::Section, _) => Key("measure-click-vessel"),
-            (Self::Fork, _) => Key("measure-click-branch"),
+            (Self::Ruler | Self::Angle, 0) => [Key("measure-click-first"), Key("measure-tap-first")],
+            (Self::Ruler, _) => [Key("measure-click-end"), Key("measure-tap-end")],
+            (Self::Angle, 1) => [Key("measure-click-vertex"), Key("measure-tap-vertex")],
+            (Self::Angle, _) => [Key("measure-click-last"), Key("measure-tap-last")],
+            (Self::Diameter, _) => [Key("measure-point-wall"), Key("measure-tap-wall")],
+            (Self::Section, _) => [Key("measure-click-vessel"), Key("measure-tap-vessel")],
+            (Self::Fork, _) => [Key("measure-click-branch"), Key("measure-tap-branch")],
         }
     }
 

@@ -7,21 +7,38 @@ use super::reduce::{DEFAULT_BOUND, LARGEST_BOUND};
 use super::{come_to, entering, measured, set};
 use crate::app::action::Action;
 use crate::app::control::{self, Change, Form, Setting};
+use crate::app::explain::explain;
 use crate::app::row::{number, row};
 use crate::app::state::State;
 use crate::app::theme;
 use crate::app::tie::Tie;
 use crate::language::{decimal, tell, text};
-use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::table::{self, Kind};
 use crate::pipeline::settings::{Settings, Target};
 use crate::pipeline::verdict;
 use crate::say;
 
-/// From this width on the sliders stand side by side, in points.
-const WIDE: f32 = 560.0;
+/// From this width on the sliders stand side by side, each with room for its name and its field, in points.
+const WIDE: f32 = 680.0;
 /// Room between sliders that stand side by side, in points.
 const GAP: f32 = 24.0;
+/// The same where there is next to no room, in points.
+const FLAT_GAP: f32 = 16.0;
+
+/// Shows the three sliders in a row, and nothing that they lead to: where there is next to no height.
+pub(in crate::app) fn flat_dock(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
+    let mut settings = state.settings.clone();
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.x = FLAT_GAP;
+        ui.columns(3, |columns| {
+            columns.iter_mut().for_each(|column| column.spacing_mut().item_spacing.x = theme::GRID);
+            smoothing(&mut columns[0], "pass-band", &mut settings, Form::Flat);
+            smoothing(&mut columns[1], "iterations", &mut settings, Form::Flat);
+            reduction(&mut columns[2], state, &mut settings, Form::Flat);
+        });
+    });
+    set(settings, state, asked);
+}
 
 /// Shows the dock. Its height depends on the width alone, whatever is known.
 pub(in crate::app) fn dock(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
@@ -106,7 +123,7 @@ fn limit(ui: &mut Ui, state: &State, settings: &mut Settings, form: Form) {
         next_coarser(ui, state, settings);
     } else {
         let shown = come_to(state, settings.target);
-        safe_row(ui, state.safe(), shown, settings, form);
+        safe_row(ui, state, shown, settings, form);
     }
 }
 
@@ -124,7 +141,8 @@ fn next_coarser(ui: &mut Ui, state: &State, settings: &Settings) {
 }
 
 /// What is safe in words, and a way there. The row is there before it is known: what lies below must not move when it is.
-fn safe_row(ui: &mut Ui, safe: Option<&Safe>, shown: Target, settings: &mut Settings, form: Form) {
+fn safe_row(ui: &mut Ui, state: &State, shown: Target, settings: &mut Settings, form: Form) {
+    let safe = state.safe();
     let mut help = say!("panel-safe-help", tolerance = settings.tolerance_percent);
     if let Some(why) = safe.and_then(|safe| safe.stopped_by.as_ref()) {
         help += &format!(" {}.", tell(why));
@@ -140,9 +158,24 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, shown: Target, settings: &mut Sett
         help += &say!("panel-safe-changed", count = changed);
     }
     let coverage = safe.and_then(|safe| safe.coverage).map(|coverage| tell(&coverage.text()));
+    let at = safe.and_then(|safe| safe.percent).map(|percent| decimal(percent, 1)).unwrap_or_default();
     if let Some(coverage) = &coverage {
         help += " ";
-        help += &say!("panel-safe-rests", coverage = coverage);
+        help += &say!("panel-safe-rests", coverage = coverage, percent = at.as_str());
+    }
+    // The verdict is on the level that is shown, and this on the one at the mark: less is measured of coarser ones.
+    let of_verdict = state.calibre().and_then(|calibre| Some(tell(&calibre.found.as_ref().ok()?.coverage.text())));
+    let differs =
+        of_verdict.is_some_and(|of_verdict| coverage.as_ref().is_some_and(|coverage| *coverage != of_verdict));
+    let coverage =
+        coverage.map(
+            |coverage| {
+                if differs { say!("panel-safe-rests-at", coverage = coverage, percent = at) } else { coverage }
+            },
+        );
+    if theme::suits_finger(ui.ctx()) {
+        // A tap on the button would press it.
+        help += &format!(" {}: {}.", say!("panel-go-there"), say!("panel-safe-go-help"));
     }
     let is_covered = safe.is_none_or(|safe| safe.coverage.is_none() || safe.is_covered());
     let label = if is_covered { say!("panel-safe") } else { say!("panel-kept-to") };
@@ -163,7 +196,7 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, shown: Target, settings: &mut Sett
         });
     };
     match form {
-        Form::Tall => {
+        Form::Tall | Form::Flat => {
             row(ui, &label, &help, control);
             line(ui);
         }
@@ -174,7 +207,7 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, shown: Target, settings: &mut Sett
                     control(ui);
                     ui.vertical(|ui| {
                         ui.spacing_mut().item_spacing.y = 0.0;
-                        ui.add(Label::new(label).truncate()).on_hover_text(help);
+                        explain(ui.add(Label::new(label).truncate()), &help);
                         line(ui);
                     });
                 });

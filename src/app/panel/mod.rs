@@ -8,7 +8,7 @@ mod smooth;
 mod steps;
 mod surface;
 
-pub(super) use self::dock::dock;
+pub(super) use self::dock::{dock, flat_dock};
 pub(super) use self::result::result;
 pub(super) use self::smooth::present_response;
 pub(super) use self::steps::STEPS;

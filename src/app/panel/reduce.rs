@@ -5,7 +5,7 @@ use egui::{ComboBox, RichText, Role, Ui};
 use super::{come_to, entering, measured, set};
 use crate::app::action::Action;
 use crate::app::assist::name;
-use crate::app::control::{self, reads_comma};
+use crate::app::control::{self, counts};
 use crate::app::row::{Fold, advanced, formulas, remark, row};
 use crate::app::state::State;
 use crate::app::swipe::Way;
@@ -13,6 +13,7 @@ use crate::app::views::Views;
 use crate::app::{equations, error_plot};
 use crate::language::{decimal, tell};
 use crate::pipeline::report::AutoReport;
+use crate::pipeline::safe::{Claim, Safe};
 use crate::pipeline::settings::table;
 use crate::pipeline::settings::{Settings, Target, reduction_percent};
 use crate::say;
@@ -108,7 +109,11 @@ fn auto(ui: &mut Ui, state: &State, target: &mut Target) {
     let percent = |found: &AutoReport| decimal(found.percent, 1);
     let text = match state.auto().filter(|_| was_auto) {
         _ if !was_auto => say!("panel-auto"),
-        Some(found) if !found.is_at_most() => say!("panel-auto-safe", percent = percent(found)),
+        Some(found) if !found.is_at_most() => match state.safe().map(Safe::claim) {
+            Some(Claim::Safe) => say!("panel-auto-safe", percent = percent(found)),
+            Some(Claim::NotPinched) => say!("panel-auto-pinched", percent = percent(found)),
+            Some(Claim::KeptWhereMeasured) | None => say!("panel-auto-kept", percent = percent(found)),
+        },
         Some(found) if found.is_decided => say!("panel-auto-most", percent = percent(found)),
         _ => say!("panel-auto-deciding"),
     };
@@ -130,7 +135,7 @@ fn wanted(ui: &mut Ui, state: &State, target: &mut Target) {
         let wanted = come_to(state, *target).triangles(entering).clamp(1, most);
         let mut typed = wanted;
         let field = egui::DragValue::new(&mut typed).range(1..=most).speed(entering as f64 / 500.0);
-        let response = ui.add(reads_comma(field, true).update_while_editing(false));
+        let response = ui.add(counts(field).update_while_editing(false));
         name(&response, Role::SpinButton, &say!("panel-wanted"));
         if !Way::of(ui).scroll(ui, &response) && typed != wanted {
             *target = Target::Triangles(typed as u32);

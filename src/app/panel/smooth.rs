@@ -13,6 +13,7 @@ use crate::language::tell;
 use crate::pipeline::settings::table::{self, Kind};
 use crate::pipeline::settings::{Preset, Settings, Smoothing};
 use crate::say;
+use crate::vessel::certificate::{BranchCalibre, Certificate, StationStatus};
 
 /// Height of what is seen at a place that is gone to, in edges.
 const AROUND: f32 = 60.0;
@@ -78,16 +79,25 @@ fn filter(ui: &mut Ui, settings: &mut Settings) {
     });
 }
 
+/// The diameter of the thinnest place that is measured, in mm, on the surface as opened. Where a vessel is less than two mean
+/// edges wide, ends or forks no calibre is measured: a spur on a rim has a tip of no width.
+fn thinnest(found: &Certificate) -> Option<f64> {
+    let measured = |branch: &BranchCalibre| {
+        let stations = branch.standings.iter().zip(&branch.opened.inscribed_radii_mm);
+        let counted = stations.filter(|(standing, _)| **standing == StationStatus::Counts);
+        counted.filter_map(|(_, radius)| radius.map(f64::from)).reduce(f64::min)
+    };
+    found.branches.iter().filter_map(measured).reduce(f64::min).map(|radius| 2.0 * radius)
+}
+
 /// What is known of the surface: the thinnest vessel is that of the surface as opened, whatever smoothing makes of it.
 fn scale(state: &State) -> response::Scale {
     let document = state.document.as_ref();
     let response = measured(document).and_then(|report| report.smoothing_response);
     let calibre = document.and_then(|document| document.calibre.as_ref()?.found.as_ref().ok());
-    let radii =
-        calibre.iter().flat_map(|calibre| &calibre.branches).filter_map(|branch| branch.opened.inscribed_radius_mm);
     response::Scale {
         edge_length: response.map(|response| response.edge_length_mm),
-        thinnest: radii.map(|radius| 2.0 * radius.least).reduce(f64::min),
+        thinnest: calibre.and_then(thinnest),
     }
 }
 
@@ -115,5 +125,27 @@ fn effect(ui: &mut Ui, smoothing: &Smoothing, state: &State, asked: &mut Vec<Act
                 asked.push(Action::GoTo { at_mm: weakened.at_mm, height_mm, label: say!("panel-smoothed-less-place") });
             }
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vessel::summary::fixtures::certificate;
+
+    #[test]
+    fn the_thinnest_place_is_the_thinnest_that_is_measured() {
+        let mut found = certificate(&[Some(0.5), Some(0.5)]).unwrap();
+        let standings = [StationStatus::End, StationStatus::Thin, StationStatus::Counts, StationStatus::Counts];
+        // A spur on a rim, and a vessel of 2.4 mm.
+        for (branch, radii) in found.branches.iter_mut().zip([[0.01, 0.02, 1.5, 1.2], [0.1, 0.2, 2.0, 1.9]]) {
+            branch.standings = standings.to_vec();
+            branch.opened.inscribed_radii_mm = radii.map(|radius: f32| Some(radius)).to_vec();
+        }
+        assert!((thinnest(&found).unwrap() - 2.4).abs() < 1e-6, "{:?}", thinnest(&found));
+        for branch in &mut found.branches {
+            branch.standings = vec![StationStatus::Thin; 4];
+        }
+        assert_eq!(thinnest(&found), None);
     }
 }

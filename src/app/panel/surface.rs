@@ -6,6 +6,7 @@ use super::set;
 use crate::app::action::Action;
 use crate::app::assist::name;
 use crate::app::document::Document;
+use crate::app::explain::explain;
 use crate::app::options::ViewOptions;
 use crate::app::row::{Fold, number};
 use crate::app::state::State;
@@ -80,7 +81,7 @@ fn unit_list(ui: &mut Ui, document: &Document, asked: &mut Vec<Action>) {
     }
     let mut unit = document.import.unit;
     ui.horizontal(|ui| {
-        ui.label(RichText::new(say!("panel-unit")).weak()).on_hover_text(say!("panel-unit-help"));
+        explain(ui.label(RichText::new(say!("panel-unit")).weak()), &say!("panel-unit-help"));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let list = ComboBox::from_id_salt("unit").width(56.0).selected_text(unit.symbol());
             let response = list.show_ui(ui, |ui| {

@@ -1,6 +1,6 @@
 //! Reports and pictures in the menu of what can be saved, and the sheet of the report.
 
-use egui::{Role, TextEdit, Ui};
+use egui::{Button, Role, TextEdit, Ui};
 
 use super::{Action, Chosen, Said};
 use crate::app::assist::{heading, name};
@@ -9,14 +9,15 @@ use crate::app::row::wrapped;
 use crate::report::ReportFormat;
 use crate::say;
 
-/// Shows them; a report waits for the vessels. Returns what was clicked.
-pub(in crate::app) fn menu(ui: &mut Ui, mut chosen: Chosen, is_measured: bool, has_video: bool) -> Option<Action> {
+/// Shows the report, which waits for the vessels. Returns whether it was clicked.
+pub(in crate::app) fn report(ui: &mut Ui, is_measured: bool) -> Option<Action> {
+    let report = ui.add_enabled(is_measured, Button::new(say!("record-report")));
+    report.on_hover_text(say!("record-report-help")).clicked().then_some(Action::Describe)
+}
+
+/// Shows the pictures. Returns what was clicked.
+pub(in crate::app) fn pictures(ui: &mut Ui, mut chosen: Chosen, has_video: bool) -> Option<Action> {
     let mut asked = None;
-    ui.add_enabled_ui(is_measured, |ui| {
-        if ui.button(say!("record-report")).on_hover_text(say!("record-report-help")).clicked() {
-            asked = Some(Action::Describe);
-        }
-    });
     menus::menu(ui, &say!("record-picture"), &mut |ui| {
         for scale in 1..=4 {
             let size = ui.button(say!("record-pixels", count = (super::job::PICTURE * scale).to_string()));

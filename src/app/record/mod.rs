@@ -24,7 +24,7 @@ use crate::sharing::measures::Measure;
 pub use action::Action;
 pub(super) use action::Chosen;
 use job::Job;
-pub(super) use menu::menu;
+pub(super) use menu::{pictures, report};
 use plot::PlotJob;
 
 /// What is being drawn, and what a user has chosen for it.

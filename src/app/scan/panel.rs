@@ -6,6 +6,7 @@ use super::state::OpenScan;
 use super::{Action, histogram, slices_panel};
 use crate::app::assist::{describe, name};
 use crate::app::control::{self, Setting, reads_comma};
+use crate::app::explain::explain;
 use crate::app::row::{self, number, remark, row, step, warning};
 use crate::app::swipe::Way;
 use crate::engine::scan::ScanWork;
@@ -110,7 +111,7 @@ fn seed(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
 /// How the surface of a mask is made.
 fn method(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     // Beside its label there is no room for both.
-    ui.label(say!("scan-method")).on_hover_text(say!("scan-method-help"));
+    explain(ui.label(say!("scan-method")), &say!("scan-method-help"));
     ui.horizontal_wrapped(|ui| {
         for (method, text) in
             [(Method::SurfaceNets, say!("scan-surface-nets")), (Method::MarchingCubes, say!("scan-marching-cubes"))]
@@ -135,7 +136,7 @@ fn volumes(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
         say!("scan-volume-offer", what = what, slices = *slices)
     };
     // What tells volumes apart may be long: the list has a row of its own.
-    ui.label(say!("scan-volume")).on_hover_text(say!("scan-volume-help"));
+    explain(ui.label(say!("scan-volume")), &say!("scan-volume-help"));
     let chosen = opened.offers.get(opened.taken).map_or_else(String::new, text);
     let list = ComboBox::from_id_salt("volume").width(ui.available_width()).truncate().selected_text(chosen);
     let list = list.show_ui(ui, |ui| {
@@ -190,7 +191,7 @@ fn swatch(ui: &mut Ui, colour: Option<Color32>) {
 
 fn bounds(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     let mut region = scan.region;
-    ui.label(say!("scan-box")).on_hover_text(say!("scan-box-help"));
+    explain(ui.label(say!("scan-box")), &say!("scan-box-help"));
     for (axis, title) in AXES {
         let (at, last) = (axis.index(), scan.opened.dimensions[axis.index()].saturating_sub(1));
         let (title, help) = (title.say(), say!("scan-box-ends"));

@@ -4,6 +4,7 @@ use super::{Effect, Engine, State};
 use crate::engine::{Event, Work};
 use crate::language::decimal;
 use crate::pipeline::report::Report;
+use crate::pipeline::safe::{Claim, Safe};
 use crate::pipeline::settings::Settings;
 use crate::say;
 
@@ -97,7 +98,7 @@ impl State {
                         self.rest();
                     }
                 }
-                let went_back = self.has_gone_back(&report);
+                let went_back = self.has_gone_back(&report).map(|percent| gone_back(percent, safe.as_deref()));
                 if let Some(document) = &mut self.document {
                     document.set_measured(generation, *report, safe, deviation);
                     // Of an older bound too: the view follows the slider as fast as levels are found.
@@ -105,8 +106,8 @@ impl State {
                         document.show_found();
                     }
                 }
-                if let Some(percent) = went_back {
-                    self.mention(&say!("app-gone-back", percent = decimal(percent, 1)));
+                if let Some(told) = went_back {
+                    self.mention(&told);
                 }
             }
             Event::Deviated(deviated) => {
@@ -170,6 +171,16 @@ impl State {
     }
 }
 
+/// That auto has gone back to a rate in percent, and why no further: as much as is known, and no more.
+fn gone_back(percent: f64, safe: Option<&Safe>) -> String {
+    let percent = decimal(percent, 1);
+    match safe.map(Safe::claim) {
+        Some(Claim::Safe) => say!("app-gone-back", percent = percent),
+        Some(Claim::NotPinched) => say!("app-gone-back-pinched", percent = percent),
+        Some(Claim::KeptWhereMeasured) | None => say!("app-gone-back-kept", percent = percent),
+    }
+}
+
 /// `text` with a capital and a full stop.
 fn sentence(text: &str) -> String {
     let text = text.trim();
@@ -177,4 +188,37 @@ fn sentence(text: &str) -> String {
     let first: String = letters.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
     let end = if text.ends_with(['.', '!', '?']) { "" } else { "." };
     format!("{first}{}{end}", letters.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::safe::NoSafeRate;
+    use crate::vessel::certificate::Coverage;
+
+    #[test]
+    fn a_rate_that_auto_goes_back_to_is_called_safe_where_enough_is_measured_alone() {
+        let safe = |measured_mm: f64| Safe {
+            percent: Some(55.5),
+            coverage: Some(Coverage {
+                length_mm: 100.0,
+                measured_mm,
+                vessels: 2,
+                vessels_measured: 2,
+                ..Coverage::default()
+            }),
+            refused: None,
+            ..Safe::refused(2.0, NoSafeRate::NoneMeasured)
+        };
+        let told = [Some(safe(80.0)), Some(safe(40.0)), Some(Safe::refused(2.0, NoSafeRate::NoneMeasured)), None];
+        assert_eq!(
+            told.map(|safe| gone_back(55.5, safe.as_ref())),
+            [
+                "Reduced by 55.5 %: more would not be safe.",
+                "Reduced by 55.5 %: more would not keep the calibre where it is measured.",
+                "Reduced by 55.5 %: more would pinch a vessel.",
+                "Reduced by 55.5 %: more would not keep the calibre where it is measured.",
+            ]
+        );
+    }
 }

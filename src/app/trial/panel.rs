@@ -9,6 +9,7 @@ use crate::app::control::progress;
 use crate::app::document::Document;
 use crate::app::keys::pressed;
 use crate::app::row::{remark, step, title, warning, wrapped};
+use crate::app::theme;
 use crate::pipeline::settings::Smoothing;
 use crate::say;
 
@@ -131,7 +132,7 @@ fn state(ui: &mut Ui, shown: &Open) {
                 ui.label(say!("trial-at-entry"));
                 return;
             };
-            let (text, is_well) = readout::sentence(run, frame);
+            let (text, is_well) = readout::sentence(run, frame, theme::suits_finger(ui.ctx()));
             let colour = ui.visuals().error_fg_color;
             wrapped(ui, &text, |text| {
                 let text = if run.summary.is_some() { text.strong() } else { text };

@@ -18,7 +18,7 @@ const SMALL: f64 = 0.01;
 const END: f32 = 40.0;
 
 /// One sentence on how the trial stands.
-pub(super) fn sentence(run: &Run, frame: &Frame) -> (String, bool) {
+pub(super) fn sentence(run: &Run, frame: &Frame, has_finger: bool) -> (String, bool) {
     if let Some(summary) = &run.summary {
         let (time, force) = (decimal(summary.time_s, 1), force(summary.max_wall_force_n));
         let why = run.end.as_ref().map_or_else(String::new, |end| tell(end));
@@ -45,11 +45,20 @@ pub(super) fn sentence(run: &Run, frame: &Frame) -> (String, bool) {
         Progress::Running if frame.is_behind => say!("trial-behind"),
         Progress::Running => match frame.doing {
             Some(doing) => say!("trial-steers", doing = inner(&tell(&doing))),
-            None if frame.step == 0 => say!("trial-feed-first"),
-            None => say!("trial-feed"),
+            None => feed(frame.step == 0, has_finger),
         },
     };
     (text, matches!(frame.progress, Progress::Arrived | Progress::Running))
+}
+
+/// What to do, at first or later, by keys or by pads.
+fn feed(is_first: bool, has_finger: bool) -> String {
+    match (is_first, has_finger) {
+        (true, false) => say!("trial-feed-first"),
+        (false, false) => say!("trial-feed"),
+        (true, true) => say!("trial-feed-first-touch"),
+        (false, true) => say!("trial-feed-touch"),
+    }
 }
 
 /// Shows the three gauges and, folded up, the other numbers.
@@ -63,14 +72,15 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
 fn gauges(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     let peaks = trial.peaks();
     let accent = ui.visuals().hyperlink_color;
+    let is_small = in_small(trial);
     let (wall, end) = (frame.max_wall_force_n as f32, peaks.wall_scale());
     let Colour([r, g, b]) = viridis(wall / end);
     let words = [say!("trial-wall-force"), say!("trial-wall-force-help")];
-    let told = [force_in(is_small(end), frame.max_wall_force_n), force_end(end)];
+    let told = [force_in(is_small, frame.max_wall_force_n), force_end(is_small, end)];
     bar(ui, &words, &told, [wall, end], Color32::from_rgb(r, g, b));
     let words = [say!("trial-push-force"), say!("trial-push-force-help")];
     let end = peaks.push_scale();
-    let told = [force_in(is_small(end), frame.push_n), force_end(end)];
+    let told = [force_in(is_small, frame.push_n), force_end(is_small, end)];
     bar(ui, &words, &told, [frame.push_n as f32, end], accent);
     let length = trial.session().map_or(0.0, |session| session.ready.route.length_mm);
     let told = [format!("{} cm", decimal(frame.inserted_mm / 10.0, 1)), format!("{:.0} cm", length / 10.0)];
@@ -88,6 +98,7 @@ fn numbers(ui: &mut Ui, trial: &Trial, frame: &Frame) {
         &clock(trial.open().map_or(0.0, |open| open.carm.seconds)),
         &say!("trial-beam-time-help"),
     );
+    let force = |newtons: f64| force_in(in_small(trial), newtons);
     let touches = say!("trial-contacts-sum", count = frame.contacts, force = force(frame.wall_force_n));
     number(ui, &say!("trial-contacts"), &touches, &say!("trial-contacts-help"));
     number(ui, &say!("trial-tip-force"), &force(frame.tip_force_n), &say!("trial-tip-force-help"));
@@ -153,9 +164,15 @@ fn bar(ui: &mut Ui, words: &[String; 2], told: &[String; 2], [value, end]: [f32;
         .line_segment([pos2(mark, rect.top()), pos2(mark, rect.bottom())], Stroke::new(1.0, ui.visuals().text_color()));
 }
 
+/// Whether the forces of the panel are told in mN, all of them in one unit: by the bar that goes farther.
+fn in_small(trial: &Trial) -> bool {
+    let peaks = trial.peaks();
+    is_small(peaks.wall_scale().max(peaks.push_scale()))
+}
+
 /// The end of a bar of forces.
-fn force_end(end: f32) -> String {
-    if is_small(end) { format!("{:.0} mN", end * 1e3) } else { format!("{} N", grouped(end)) }
+fn force_end(is_small: bool, end: f32) -> String {
+    if is_small { format!("{:.0} mN", end * 1e3) } else { format!("{} N", grouped(end)) }
 }
 
 /// Whether a bar or a legend that ends at this many N is told in mN.
@@ -168,7 +185,7 @@ fn force(newtons: f64) -> String {
     force_in(newtons.abs() < SMALL, newtons)
 }
 
-/// In mN or in N: beside a bar in the unit of its end.
+/// In mN or in N.
 fn force_in(is_small: bool, newtons: f64) -> String {
     if is_small {
         format!("{} mN", decimal((newtons * 1e5).round() / 100.0 + 0.0, 2))
@@ -196,6 +213,12 @@ mod tests {
         let forces = [0.0, -0.000_001, 0.000_214, -0.009_9, 0.01, 0.312_4];
         let told = ["0.00 mN", "0.00 mN", "0.21 mN", "-9.90 mN", "0.010 N", "0.312 N"];
         assert_eq!(forces.map(super::force), told);
+    }
+
+    #[test]
+    fn where_one_bar_is_in_newtons_so_is_the_end_of_the_other() {
+        assert_eq!([0.005, 0.5].map(|end| super::force_end(false, end)), ["0.005 N", "0.5 N"]);
+        assert_eq!([0.002, 0.005].map(|end| super::force_end(true, end)), ["2 mN", "5 mN"]);
     }
 
     #[test]

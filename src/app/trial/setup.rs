@@ -10,7 +10,7 @@ use crate::app::control::{Setting, reads_comma};
 use crate::app::row::{remark, row};
 use crate::app::theme;
 use crate::engine::trial::TrialReady;
-use crate::language::tell;
+use crate::language::{Key, tell};
 use crate::mesh::Vec3;
 use crate::say;
 use crate::trial::setup::{Entry, Setup};
@@ -146,11 +146,11 @@ pub(super) fn places(ui: &mut Ui, ready: &TrialReady, setup: &mut Setup, pick: O
     }
     (setup.entry, setup.target) = (entry, target);
     if let Some(pick) = pick {
-        let what = match pick {
-            Pick::Entry => say!("trial-click-entry"),
-            Pick::Target => say!("trial-click-target"),
+        let (by_mouse, by_finger) = match pick {
+            Pick::Entry => (Key("trial-click-entry"), Key("trial-click-entry-touch")),
+            Pick::Target => (Key("trial-click-target"), Key("trial-click-target-touch")),
         };
-        remark(ui, &what);
+        remark(ui, &theme::by_hand(ui.ctx(), by_mouse, by_finger).say());
     }
     let label = say!("trial-seed");
     row(ui, &label, &say!("trial-seed-help"), |ui| {

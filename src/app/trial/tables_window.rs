@@ -9,6 +9,7 @@ use super::action::Action;
 use super::sweep;
 use super::tables::{Outcome, Row, SEEDS, Tables};
 use crate::app::control::progress;
+use crate::app::explain::explain;
 use crate::app::theme;
 use crate::language::{Key, decimal, grouped};
 use crate::phantom::Sample;
@@ -112,7 +113,7 @@ pub(super) fn grid<const N: usize>(
     Grid::new(id).num_columns(N).striped(true).spacing([14.0, 6.0]).show(ui, |ui| {
         for (i, (head, help)) in columns.iter().enumerate() {
             aligned(ui, i, &|ui| {
-                ui.label(RichText::new(head.say()).small().strong()).on_hover_text(help.say());
+                explain(ui.label(RichText::new(head.say()).small().strong()), &help.say());
             });
         }
         ui.end_row();

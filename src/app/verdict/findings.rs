@@ -3,10 +3,11 @@
 use crate::app::action::Action;
 use crate::app::document::Document;
 use crate::app::state::State;
+use crate::app::vessels;
 use crate::engine::Source;
 use crate::language::tell;
 use crate::pipeline::connectivity::LeftOut;
-use crate::pipeline::verdict::{Finding, Known, Remedied, Remedy, Rest, Verdict, takes_more};
+use crate::pipeline::verdict::{Finding, FindingKind, Known, Remedied, Remedy, Rest, Verdict, takes_more};
 
 /// Height of what is seen around a place, in widths of the vessel there.
 const SEEN: f64 = 8.0;
@@ -50,7 +51,14 @@ fn safe_percent(state: &State, document: &Document) -> Option<f64> {
 }
 
 /// What goes to the place of a finding.
-pub(super) fn look(finding: &Finding) -> Option<Action> {
+pub(super) fn look(state: &State, finding: &Finding) -> Option<Action> {
+    if let FindingKind::Narrower { name, .. } = &finding.what {
+        let found = state.calibre().and_then(|calibre| calibre.found.as_ref().ok());
+        let branch = found.and_then(|found| found.branches.iter().find(|branch| branch.label() == *name));
+        if let Some(branch) = branch {
+            return Some(Action::Vessels(vessels::Action::ShowNarrowing(branch.number)));
+        }
+    }
     let place = finding.place.as_ref()?;
     let height_mm = (SEEN * place.width_mm).max(1.0) as f32;
     Some(Action::GoTo { at_mm: place.at_mm, height_mm, label: tell(&place.label) })

@@ -5,4 +5,4 @@ mod findings;
 mod view;
 
 pub(super) use self::findings::verdict;
-pub(super) use self::view::{height, show};
+pub(super) use self::view::{Strip, show};

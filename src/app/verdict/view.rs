@@ -8,6 +8,7 @@ use egui::{Align, Color32, Context, FontSelection, Id, Layout, RichText, Role, S
 use super::findings::{look, take, verdict};
 use crate::app::action::Action;
 use crate::app::assist::name;
+use crate::app::explain::explain;
 use crate::app::menus::card;
 use crate::app::options::{Colours, ViewOptions};
 use crate::app::row::wrapped;
@@ -18,6 +19,7 @@ use crate::language::tell;
 use crate::pipeline::settings::Settings;
 use crate::pipeline::verdict::{Finding, FindingKind, Head, HeadText, Verdict};
 use crate::say;
+use crate::vessel::certificate::ENOUGH_PERCENT;
 
 /// What findings are of: the number of the surface, and the settings.
 type Of = (u64, Settings);
@@ -31,20 +33,32 @@ const WIDEST: f32 = 320.0;
 /// Height of a line where a mouse points, in points.
 const LINE: f32 = 24.0;
 
-/// Height of the strip, in points; in a narrow window the sentence has a line of its own.
-pub(in crate::app) fn height(ctx: &Context, is_narrow: bool) -> f32 {
-    theme::row(ctx, LINE) + if is_narrow { LINE } else { 0.0 }
+/// Where the strip stands.
+#[derive(Clone, Copy)]
+pub(in crate::app) struct Strip {
+    /// In the window of a phone: the sentence has a line of its own.
+    pub(in crate::app) is_narrow: bool,
+    /// In a part of another page, which has no panels to open: it goes to the place alone.
+    pub(in crate::app) is_part: bool,
+    /// In a low part: the sentence has what is left of the line, however narrow.
+    pub(in crate::app) is_low: bool,
 }
 
-/// Shows the verdict on what is shown, and says what is asked for there. A part of another page has no panels to open: it goes
-/// to the place alone.
-pub(in crate::app) fn show(
-    ui: &mut Ui,
-    state: &State,
-    options: ViewOptions,
-    (is_narrow, is_part): (bool, bool),
-    asked: &mut Vec<Action>,
-) {
+impl Strip {
+    /// Whether the sentence has a line of its own.
+    fn has_two_lines(self) -> bool {
+        self.is_narrow && !self.is_low
+    }
+
+    /// Its height, in points.
+    pub(in crate::app) fn height(self, ctx: &Context) -> f32 {
+        theme::row(ctx, LINE) + if self.has_two_lines() { LINE } else { 0.0 }
+    }
+}
+
+/// Shows the verdict on what is shown, and says what is asked for there.
+pub(in crate::app) fn show(ui: &mut Ui, state: &State, options: ViewOptions, strip: Strip, asked: &mut Vec<Action>) {
+    let Strip { is_narrow, is_part, is_low } = strip;
     let Some(document) = &state.document else { return };
     let verdict = verdict(state, document);
     let first = verdict.findings.first().filter(|finding| finding.is_grave);
@@ -60,27 +74,41 @@ pub(in crate::app) fn show(
         (None, None) => say!("verdict-stopped"),
     };
     let text = if state.shows_sample() { say!("verdict-sample", text = text) } else { text };
+    // Where the sentence is cut off, how much is measured comes first.
+    let is_short = is_narrow || is_low;
+    let text = coverage.as_ref().filter(|_| is_short).map_or_else(|| text.clone(), |part| format!("{part}. {text}"));
     ui.spacing_mut().item_spacing.y = 0.0;
     let line = theme::row(ui.ctx(), LINE);
     ui.spacing_mut().interact_size.y = line;
     ui.allocate_ui_with_layout(vec2(ui.available_width(), line), Layout::left_to_right(Align::Center), |ui| {
         mark(ui, verdict.head);
         ui.label(RichText::new(tell(&verdict.head)).strong());
-        if let Some(coverage) = coverage.as_ref().filter(|_| !is_narrow) {
+        if let Some(coverage) = coverage.as_ref().filter(|_| !is_short) {
             let link = egui::Button::new(RichText::new(coverage).color(ui.visuals().hyperlink_color)).frame(false);
             if is_part {
                 ui.label(coverage);
-            } else if ui.add(link).on_hover_text(say!("verdict-show-unmeasured-help")).clicked() {
+            } else if ui
+                .add(link)
+                .on_hover_text(say!("verdict-show-unmeasured-help", percent = ENOUGH_PERCENT))
+                .clicked()
+            {
                 asked.push(SHOW_UNMEASURED);
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if is_part {
-                first.into_iter().for_each(|finding| go(ui, finding, asked));
+                first.into_iter().for_each(|finding| go(ui, state, finding, asked));
             } else {
-                buttons(ui, (&verdict, (document.revision.document, state.settings.clone())), first, is_narrow, asked);
+                buttons(
+                    ui,
+                    state,
+                    (&verdict, (document.revision.document, state.settings.clone())),
+                    first,
+                    is_narrow,
+                    asked,
+                );
             }
-            if !is_narrow {
+            if !strip.has_two_lines() {
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| sentence(ui, &text));
             }
         });
@@ -89,9 +117,8 @@ pub(in crate::app) fn show(
     if asked.contains(&SHOW_UNMEASURED) && options.colours != Colours::Calibre {
         asked.push(Action::Show(ViewOptions { colours: Colours::Calibre, ..options }));
     }
-    if is_narrow {
-        // There is room for one line: how much is measured comes first.
-        sentence(ui, &coverage.map_or_else(|| text.clone(), |coverage| format!("{coverage}. {text}")));
+    if strip.has_two_lines() {
+        sentence(ui, &text);
     }
 }
 
@@ -99,6 +126,7 @@ pub(in crate::app) fn show(
 /// of the sentence.
 fn buttons(
     ui: &mut Ui,
+    state: &State,
     (verdict, of): (&Verdict, Of),
     first: Option<&Finding>,
     is_narrow: bool,
@@ -120,19 +148,22 @@ fn buttons(
             let kept = kept.map_or_else(|| Arc::new(verdict.clone()), |(_, kept)| kept);
             ui.data_mut(|data| data.insert_temp(id, (of.clone(), kept.clone())));
             let before = asked.len();
-            if is_narrow && kept.head == Head::KeptWhereMeasured {
-                unmeasured(ui, asked);
+            if kept.head == Head::KeptWhereMeasured {
+                wrapped(ui, &say!("verdict-enough", percent = ENOUGH_PERCENT), |text| text.small().weak());
+                if is_narrow {
+                    unmeasured(ui, asked);
+                }
                 ui.separator();
             }
-            list(ui, &kept.findings, asked);
+            list(ui, state, &kept.findings, asked);
             if asked.len() > before {
                 ui.close();
             }
         });
     }
     match first {
-        Some(finding) if is_narrow => go(ui, finding, asked),
-        Some(finding) => act(ui, finding, asked),
+        Some(finding) if is_narrow => go(ui, state, finding, asked),
+        Some(finding) => act(ui, state, finding, asked),
         // Beside the list a phone has no room for it.
         None if verdict.head == Head::KeptWhereMeasured && is_narrow && count > 0 => {}
         None if verdict.head == Head::KeptWhereMeasured => unmeasured(ui, asked),
@@ -148,13 +179,13 @@ fn buttons(
 /// The way to what is not measured.
 fn unmeasured(ui: &mut Ui, asked: &mut Vec<Action>) {
     let show = ui.button(say!("verdict-show-unmeasured"));
-    if show.on_hover_text(say!("verdict-show-unmeasured-help")).clicked() {
+    if show.on_hover_text(say!("verdict-show-unmeasured-help", percent = ENOUGH_PERCENT)).clicked() {
         asked.push(SHOW_UNMEASURED);
     }
 }
 
 /// All that was found and what can be done about it, what is grave apart from the rest.
-fn list(ui: &mut Ui, findings: &[Finding], asked: &mut Vec<Action>) {
+fn list(ui: &mut Ui, state: &State, findings: &[Finding], asked: &mut Vec<Action>) {
     let grave = findings.iter().filter(|finding| finding.is_grave).count();
     let parts = [(say!("verdict-list-grave"), &findings[..grave]), (say!("verdict-list-notes"), &findings[grave..])];
     ui.spacing_mut().item_spacing.y = theme::GRID;
@@ -169,15 +200,15 @@ fn list(ui: &mut Ui, findings: &[Finding], asked: &mut Vec<Action>) {
             wrapped(ui, &tell(&finding.what), |text| text);
             let leads = finding.place.is_some() || matches!(finding.what, FindingKind::LeftOut { .. });
             if leads || !finding.remedies.is_empty() {
-                ui.horizontal_wrapped(|ui| act(ui, finding, asked));
+                ui.horizontal_wrapped(|ui| act(ui, state, finding, asked));
             }
         }
     }
 }
 
 /// What can be done about a finding.
-fn act(ui: &mut Ui, finding: &Finding, asked: &mut Vec<Action>) {
-    go(ui, finding, asked);
+fn act(ui: &mut Ui, state: &State, finding: &Finding, asked: &mut Vec<Action>) {
+    go(ui, state, finding, asked);
     for remedy in &finding.remedies {
         if ui.button(tell(&remedy.label)).on_hover_text(say!("verdict-remedy-help")).clicked() {
             asked.push(take(remedy));
@@ -191,8 +222,8 @@ fn act(ui: &mut Ui, finding: &Finding, asked: &mut Vec<Action>) {
 }
 
 /// The way to its place, where it has one.
-fn go(ui: &mut Ui, finding: &Finding, asked: &mut Vec<Action>) {
-    if let Some(place) = look(finding)
+fn go(ui: &mut Ui, state: &State, finding: &Finding, asked: &mut Vec<Action>) {
+    if let Some(place) = look(state, finding)
         && ui.button(say!("verdict-show-place")).on_hover_text(say!("verdict-show-place-help")).clicked()
     {
         asked.push(place);
@@ -212,7 +243,7 @@ fn sentence(ui: &mut Ui, text: &str) {
     ui.painter().galley(pos2(rect.left(), rect.center().y - galley.size().y / 2.0), galley, colour);
     name(&response, Role::Label, text);
     if is_cut {
-        response.on_hover_text(text.to_owned());
+        explain(response, text);
     }
 }
 

@@ -15,6 +15,9 @@ pub enum Action {
     Refer(Option<f64>),
     /// Show them, with the one that is measured least, and go to where it is not.
     ShowUnmeasured,
+    /// Draw the radius along the branch of this number, and go to its narrowing: the stretch is marked, and the places that it
+    /// is measured by.
+    ShowNarrowing(u32),
     /// Save the calibre at each place of each branch.
     SaveTable,
     /// Save the centrelines.

@@ -89,6 +89,12 @@ impl Panel for Vessels {
                 }
             }
             Action::Select(branch) => (self.selected, self.reference_mm) = (Some(branch), None),
+            Action::ShowNarrowing(number) => {
+                *self = Self { selected: Some(number), scrolls: true, reference_mm: None };
+                let found = acting.state.calibre().and_then(|calibre| calibre.found.as_ref().ok());
+                let branch = found.and_then(|found| found.branches.iter().find(|branch| branch.number == number));
+                acting.then.extend(branch.into_iter().flat_map(view::narrowing));
+            }
             Action::Refer(at_mm) => {
                 self.reference_mm = at_mm;
                 if at_mm.is_none() {

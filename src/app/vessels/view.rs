@@ -2,12 +2,13 @@
 
 use egui::{Button, DragValue, Grid, RichText, Role, ScrollArea, Ui};
 
-use super::words::{COLUMNS, cells, text, why_not_measured};
+use super::words::{COLUMNS, cells, text, uneven_in_short, why_not_measured};
 use super::{Action as Asked, Vessels, plot};
 use crate::app::action::Action;
 use crate::app::assist::{describe, heading, name};
 use crate::app::control::reads_comma;
 use crate::app::document::Document;
+use crate::app::explain::explain;
 use crate::app::mode::Now;
 use crate::app::options::{Colours, ViewOptions};
 use crate::app::row::wrapped;
@@ -21,11 +22,13 @@ use crate::vessel::summary::{in_order, place, summary};
 
 /// Height of what is seen at a place that is gone to, in radii of the vessel there.
 const SEEN: f32 = 16.0;
+/// What is seen around a narrowing, in its distance from what is farthest of it: twice that, and some room.
+const AROUND: f32 = 2.5;
 /// Height of the plot and its words on a phone, in points.
 const PHONE: f32 = 180.0;
 /// What the plot takes of the width, where it stands beside the table, and at least where that is wide.
 const PLOT: f32 = 0.42;
-const LEAST_PLOT: f32 = 0.3;
+const LEAST_PLOT: f32 = 0.24;
 
 /// Shows the vessels, with the branch that is chosen; on a phone the plot stands below the table.
 pub(super) fn show(ui: &mut Ui, shown: Vessels, now: Now<'_>, asked: &mut Vec<Action>) {
@@ -85,7 +88,7 @@ fn head(ui: &mut Ui, state: &State, options: ViewOptions, is_narrow: bool, asked
         ui.add_space(8.0);
         let mut tolerance = state.settings.tolerance_percent;
         let allowed = say!("vessels-allowed");
-        ui.label(&allowed).on_hover_text(say!("vessels-allowed-help"));
+        explain(ui.label(&allowed), &say!("vessels-allowed-help"));
         let field = DragValue::new(&mut tolerance).range(0.0..=100.0).speed(0.05).max_decimals(1).suffix(" %");
         let field = reads_comma(field, false).update_while_editing(false);
         let field = ui.add(field).on_hover_text(say!("panel-type"));
@@ -128,22 +131,28 @@ fn table(
     let safe = state.safe();
     ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), 18.0);
     ui.spacing_mut().button_padding.y = 1.0;
-    Grid::new("vessels").num_columns(COLUMNS.len()).striped(true).spacing([12.0, 2.0]).show(ui, |ui| {
+    Grid::new("vessels").num_columns(COLUMNS.len()).striped(true).spacing([8.0, 2.0]).show(ui, |ui| {
         for (head, help) in COLUMNS {
-            ui.label(RichText::new(head.say()).small().strong()).on_hover_text(help.say());
+            explain(ui.label(RichText::new(head.say()).small().strong()), &help.say());
         }
         ui.end_row();
         for &branch in rows {
             for (column, cell) in cells(branch, safe).into_iter().enumerate() {
                 if column > 0 {
-                    let cell = RichText::new(cell);
+                    // The whole of it stands beside the table, above the plot.
+                    let is_uneven = column == COLUMNS.len() - 1;
+                    let short = uneven_in_short(branch).filter(|_| is_uneven);
+                    let whole = cell.clone();
+                    let cell = RichText::new(short.clone().unwrap_or(cell));
                     let label = ui.label(match branch.verdict {
                         Verdict::Changed if column == 1 => cell.color(ui.visuals().error_fg_color),
                         Verdict::NotMeasured => cell.weak(),
                         _ => cell,
                     });
                     if let Some(why) = why_not_measured(branch).filter(|_| column == 1) {
-                        label.on_hover_text(why.say());
+                        explain(label, &why.say());
+                    } else if short.is_some() {
+                        explain(label, &whole);
                     }
                     continue;
                 }
@@ -154,10 +163,14 @@ fn table(
                 }
                 if label.clicked() {
                     asked.push(Action::Vessels(Asked::Select(branch.number)));
-                    asked.extend(match branch.reduced.largest_change {
-                        Some(change) => Some(go_to(branch, &change)),
-                        None => go_to_station(branch, branch.at_mm.len() / 2),
-                    });
+                    // What reduction has changed comes first, then what the vessel has by itself.
+                    let narrowing = narrowing(branch);
+                    match branch.reduced.largest_change {
+                        Some(change) if branch.verdict == Verdict::Changed => asked.push(go_to(branch, &change)),
+                        _ if !narrowing.is_empty() => asked.extend(narrowing),
+                        Some(change) => asked.push(go_to(branch, &change)),
+                        None => asked.extend(go_to_station(branch, branch.at_mm.len() / 2)),
+                    }
                 }
             }
             ui.end_row();
@@ -223,6 +236,28 @@ fn reference(ui: &mut Ui, branch: &BranchCalibre, reference_mm: Option<f64>) -> 
         wrapped(ui, &told, RichText::small);
     }
     wanted
+}
+
+/// A look at the narrowing of a branch, so that all of it and the places that it is measured by are in view, and marks on them;
+/// nothing where there is none.
+pub(super) fn narrowing(branch: &BranchCalibre) -> Vec<Action> {
+    let [Some(found), _] = branch.uneven() else { return Vec::new() };
+    let at = glam::Vec3::from(found.at_mm);
+    let sides = found.sides.iter().flatten().filter_map(|side| {
+        let place = branch.at_mm[plot::nearest(branch, side.abscissa_mm)?];
+        Some((place, say!("vessels-refers-here", diameter = decimal(side.diameter_mm, 2))))
+    });
+    let beside: Vec<([f32; 3], String)> = sides.collect();
+    let is_in = |at: &f32| (found.from_mm..=found.to_mm).contains(&f64::from(*at));
+    let stations = branch.abscissas_mm.iter().zip(&branch.at_mm).filter(|(at, _)| is_in(at));
+    let along_mm: Vec<[f32; 3]> = stations.map(|(_, place)| *place).collect();
+    let places = beside.iter().map(|(place, _)| place).chain(&along_mm);
+    let farthest = places.map(|place| at.distance(glam::Vec3::from(*place))).fold(0.0, f32::max);
+    let height_mm = height(branch, found.abscissa_mm).max(AROUND * farthest);
+    vec![
+        Action::GoTo { at_mm: found.at_mm, height_mm, label: tell(&found.text()) },
+        Action::MarkStretch { along_mm, beside },
+    ]
 }
 
 /// A look at station `i` of a branch, if there is such a station.

@@ -15,9 +15,10 @@ pub(super) const COLUMNS: [(Key, Key); 10] = [
     (Key("vessels-column-smoothed"), Key("vessels-column-smoothed-help")),
     (Key("vessels-column-safe"), Key("vessels-column-safe-help")),
     (Key("vessels-radius"), Key("vessels-column-radius-help")),
-    (Key("vessels-column-uneven"), Key("vessels-column-uneven-help")),
     (Key("vessels-column-length"), Key("vessels-column-length-help")),
     (Key("vessels-column-tortuosity"), Key("vessels-column-tortuosity-help")),
+    // Its words are the longest: what is cut off in a narrow window is cut off here.
+    (Key("vessels-column-uneven"), Key("vessels-column-uneven-help")),
 ];
 
 /// The verdict in a few words, for the panel.
@@ -58,10 +59,16 @@ pub(super) fn cells(branch: &BranchCalibre, safe: Option<&Safe>) -> [String; COL
             _ => none(),
         },
         radius.map_or_else(none, |radius| tell(&radius.text())),
-        branch.uneven_text().map_or_else(none, |found| tell(&found)),
         decimal(branch.length_mm, 1),
         branch.tortuosity.map_or_else(none, |tortuosity| decimal(tortuosity, 2)),
+        branch.uneven_text().map_or_else(none, |found| tell(&found)),
     ]
+}
+
+/// Where a branch is narrower or wider, by how much alone; `None` where it is neither.
+pub(super) fn uneven_in_short(branch: &BranchCalibre) -> Option<String> {
+    let found: Vec<String> = branch.uneven().into_iter().flatten().map(|stretch| tell(&stretch.degree())).collect();
+    (!found.is_empty()).then(|| found.join(", "))
 }
 
 /// Why a branch can nowhere be measured; `None` where it can.
@@ -99,7 +106,7 @@ mod tests {
     #[test]
     fn a_row_has_numbers_with_units_and_dashes_for_what_is_not_known() {
         let row = cells(&branch(3, None), None);
-        let numbers = ["0 %", "–", "0.0 %", "–", "1.50 (1.00 to 2.00)", "–", "12.3", "–"];
+        let numbers = ["0 %", "–", "0.0 %", "–", "1.50 (1.00 to 2.00)", "12.3", "–", "–"];
         assert_eq!(
             (&row[..2], &row[2..]),
             (&["branch 3", "not measured"].map(str::to_owned)[..], &numbers.map(str::to_owned)[..])

@@ -30,6 +30,9 @@ use crate::render::{Camera, Look, StandardView};
 use crate::say;
 use crate::sharing::measures::Measure;
 
+/// From so many times as wide as high on, room that is narrow is split from left to right.
+const WIDE: f32 = 1.5;
+
 /// Said where the surface is not drawn because an allocation on the graphics device failed.
 pub(super) const NO_MEMORY: Key = Key("views-no-memory");
 
@@ -40,6 +43,17 @@ pub(super) struct Spot {
     pub(super) at: Vec3,
     /// What there is to say of it.
     pub(super) label: String,
+    /// The stretch that it lies in, where that is marked, in mm.
+    pub(super) along: Vec<Vec3>,
+    /// What that is measured by, in mm, and what there is to say of it.
+    pub(super) beside: Vec<(Vec3, String)>,
+}
+
+impl Spot {
+    /// A place by itself, in mm.
+    pub(super) fn new(at_mm: [f32; 3], label: String) -> Self {
+        Self { at: at_mm.into(), label, along: Vec::new(), beside: Vec::new() }
+    }
 }
 
 /// What a click in a view asks for.
@@ -310,13 +324,14 @@ impl Views {
         self.outlines = has_outline.then(|| self.outlines.take().unwrap_or_default());
     }
 
-    /// Shows both views in what is left of `ui`. Returns what was clicked, if that asks for something.
+    /// Shows both views in what is left of `ui`, in a window that is that of a phone or a low part of another page. Returns
+    /// what was clicked, if that asks for something.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
         subject: Subject<'_>,
         over: &mut Over<'_>,
-        is_narrow: bool,
+        (is_narrow, is_low): (bool, bool),
     ) -> Option<Clicked> {
         let Subject { document, keep, .. } = subject;
         let moves = ui.input(|input| input.pointer.any_down() || input.smooth_scroll_delta() != egui::Vec2::ZERO);
@@ -340,8 +355,10 @@ impl Views {
             outlines.keep_only(&self.slices, document.revision);
         }
         let mut area = ui.available_rect_before_wrap();
-        // A finger covers much of two small pictures.
-        let is_alone = is_narrow && theme::suits_finger(ui.ctx());
+        // A finger covers much of two small pictures. A low part of a page has no height for tabs where it has the width for
+        // both.
+        let is_wide = area.width() > WIDE * area.height();
+        let is_alone = if is_low { !is_wide } else { is_narrow && theme::suits_finger(ui.ctx()) };
         if is_alone && area.height() > 2.0 * tabs::HEIGHT {
             let (strip, below) = area.split_top_bottom_at_y(area.top() + tabs::HEIGHT);
             tabs::show(ui, strip, &mut self.large);
@@ -349,7 +366,7 @@ impl Views {
         }
         let (first, second) = if is_alone {
             (area, area)
-        } else if is_narrow || area.width() < area.height() / 2.0 {
+        } else if is_narrow && !is_wide || area.width() < area.height() / 2.0 {
             area.split_top_bottom_at_fraction(0.5)
         } else {
             area.split_left_right_at_fraction(0.5)

@@ -226,7 +226,12 @@ impl Views {
             }
         }
         if let Some(spot) = &self.spot {
-            overlay::ring(ui, rect, &self.camera, spot.at, &spot.label, ui.visuals().hyperlink_color);
+            let colour = ui.visuals().hyperlink_color;
+            overlay::path(ui, rect, &self.camera, &spot.along, colour);
+            overlay::ring(ui, rect, &self.camera, spot.at, &spot.label, colour);
+            for (at, label) in &spot.beside {
+                overlay::ring(ui, rect, &self.camera, *at, label, ui.visuals().text_color());
+            }
         }
         if let Some(pinch) = document.and_then(Document::pinch).filter(|_| !self.show_before) {
             let before = decimal(pinch.diameter_before_mm, 1);

@@ -14,9 +14,14 @@ app-about-letters = Schrift: Ubuntu Light derivative Lumen, (c) Canonical Ltd, U
 app-open = Öffnen...
 app-open-help = Eine Oberfläche oder Einstellungen (Strg+O); oder eine Datei hierher ziehen
 app-open-in = Einheit
+app-open-units = Einheit der Zahlen in der Datei
 app-open-in-help = Eine Datei öffnen, deren Zahlen in einer anderen Einheit als mm sind (glTF: m)
 app-sample = Beispiel
 app-save = Speichern
+# On a phone: menus of what can be saved.
+app-save-surface = Oberfläche
+app-save-vessels = Gefäße
+app-save-record = Für die Akte
 app-undo = Rückgängig
 app-undo-help = Rückgängig (Strg+Z)
 app-redo = Wiederholen
@@ -258,6 +263,8 @@ app-others = { $rest ->
    *[other] { $next } und { $rest } weitere kamen mit.
 }
 app-gone-back = Um { $percent } % reduziert: mehr wäre nicht sicher.
+app-gone-back-kept = Um { $percent } % reduziert: mehr würde das Kaliber nicht erhalten, wo es gemessen ist.
+app-gone-back-pinched = Um { $percent } % reduziert: mehr würde ein Gefäß einschnüren.
 app-scan-cancelled = Abgebrochen; der Scan wurde nicht geöffnet.
 
 ## Work that ends before it is done

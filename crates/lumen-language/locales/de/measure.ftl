@@ -8,6 +8,8 @@ measure-back = Zurück
 measure-close-help = M, Esc
 measure-no-surface = Es gibt noch keine Oberfläche.
 measure-choose = Ein Werkzeug wählen, dann in einer der Ansichten auf die Oberfläche klicken.
+# Where a finger points.
+measure-choose-touch = Ein Werkzeug wählen, dann in einer Ansicht auf die Oberfläche tippen.
 measure-hint = { $hint }. Eingabetaste: Mitte der Ansicht; Esc: fertig.
 
 ## Die Werkzeuge
@@ -32,6 +34,14 @@ measure-click-last = Letzte Stelle anklicken
 measure-point-wall = Auf die Wand zeigen, um den Durchmesser zu sehen; klicken, um ihn zu behalten
 measure-click-vessel = Ein Gefäß anklicken
 measure-click-branch = Einen Ast neben einer Gabelung anklicken
+# The same by a finger.
+measure-tap-first = Auf die erste Stelle der Oberfläche tippen
+measure-tap-end = Auf das andere Ende tippen
+measure-tap-vertex = Auf den Scheitel des Winkels tippen
+measure-tap-last = Auf die letzte Stelle tippen
+measure-tap-wall = Auf die Wand tippen, um ihren Durchmesser zu messen
+measure-tap-vessel = Auf ein Gefäß tippen
+measure-tap-branch = Auf einen Ast neben einer Gabelung tippen
 
 ## Warum nichts gemessen wurde
 

@@ -235,7 +235,7 @@ panel-response-help = Wie viel von einer Welle auf der Oberfläche bleibt, nach 
 panel-response-length = Länge einer Welle, mm
 panel-response-eigenvalue = Eigenwert k
 # Beside lines and points of the picture.
-panel-response-thinnest = dünnstes: { $length }
+panel-response-thinnest = dünnstes gemessenes: { $length }
 panel-response-pass-band = Durchlassband
 panel-response-half = halb
 # Beside the pointer, in two lines.
@@ -249,8 +249,8 @@ panel-wave = Welle
 panel-wave-help = Ihre Länge auf der Oberfläche; hier oder auf der Kurve ziehen
 # $wave is a length with its unit, or "k = 0.0234".
 panel-wave-left = Von einer Welle von { $wave } bleiben { $percent } %.
-panel-wave-left-thinnest = Um das dünnste Gefäß, { $length }: { $percent } %.
-panel-wave-left-thinnest-adapted = Um das dünnste Gefäß, { $length }: { $percent } %, durch die Anpassung mehr.
+panel-wave-left-thinnest = Um das dünnste gemessene Gefäß, { $length }: { $percent } %.
+panel-wave-left-thinnest-adapted = Um das dünnste gemessene Gefäß, { $length }: { $percent } %, durch die Anpassung mehr.
 panel-windows = Fenster im Vergleich
 panel-windows-help = Die drei anderen bei gleichem Durchlassband und gleichen Iterationen
 panel-windows-drawn = Dünn: die anderen in der Reihenfolge der Liste, gestrichelt, gepunktet, lang gestrichelt.
@@ -293,6 +293,8 @@ panel-auto = Automatisch: 90 % oder so weit wie sicher
 # $percent is the rate that was come to: at most 90.
 panel-auto-most = Automatisch: { $percent } %
 panel-auto-safe = Automatisch: { $percent } %, so weit wie sicher
+panel-auto-kept = Automatisch: { $percent } %, erhalten, wo gemessen
+panel-auto-pinched = Automatisch: { $percent } %, keines eingeschnürt
 panel-auto-deciding = Automatisch: es wird bestimmt, wie weit es sicher ist
 panel-auto-help = Reduziert um 90 % oder so weit, wie jedes Gefäß sein Kaliber auf { $tolerance } % genau behält und keines eingeschnürt wird, je nachdem, was weniger ist. Der Regler setzt stattdessen eine Zahl.
 # Followed by a rate: reduction up to it changes no vessel too much.
@@ -301,7 +303,8 @@ panel-safe-help = Bis hier behält jedes messbare Gefäß sein Kaliber auf { $to
 # $why is a part of a sentence.
 panel-safe-refused = Hier gibt es keine solche Rate: { $why }.
 panel-kept-to = Erhalten bis
-panel-safe-rests = Gemessen über { $coverage }.
+panel-safe-rests = Bei { $percent } % gemessen über { $coverage }; das Urteil gilt der gezeigten Stufe.
+panel-safe-rests-at = Bei { $percent } %: { $coverage }
 panel-safe-changed = Äste, die schon die Glättung stärker ändert, zählen nicht: { $count }.
 panel-safe-go-help = Setzt die Reduktion auf die Marke unter dem Regler
 panel-wanted = Anzahl Dreiecke

@@ -76,6 +76,8 @@ report-reduction = Reduktion
 report-target-reduction = { $percent } % der Dreiecke
 report-target-auto = { $percent } % der Dreiecke, automatisch gewählt
 report-target-auto-safe = { $percent } % der Dreiecke, automatisch gewählt: so weit wie sicher
+report-target-auto-kept = { $percent } % der Dreiecke, automatisch gewählt: so weit Gefäße erhalten sind, wo sie gemessen sind
+report-target-auto-pinched = { $percent } % der Dreiecke, automatisch gewählt: so weit kein Gefäß eingeschnürt ist
 report-target-triangles = { $count ->
     [one] auf { $count } Dreieck
    *[other] auf { $count } Dreiecke

@@ -64,6 +64,9 @@ trial-doing-withdrawing = zieht zurück
 trial-doing-exchanging = zieht den Draht heraus, um einen anderen zu nehmen
 trial-feed-first = Den Draht zum Ziel vorschieben (W, S) und drehen (A, D) oder den Autopiloten steuern lassen: Von da an läuft die Zeit.
 trial-feed = Den Draht zum Ziel vorschieben (W, S) und drehen (A, D) oder den Autopiloten steuern lassen.
+# The same where a finger points: by the pads under the thumbs.
+trial-feed-first-touch = Den Draht mit den Flächen unten zum Ziel vorschieben und drehen oder den Autopiloten steuern lassen: Von da an läuft die Zeit.
+trial-feed-touch = Den Draht mit den Flächen unten zum Ziel vorschieben und drehen oder den Autopiloten steuern lassen.
 
 ## Gauges and numbers. The names are short: the number stands beside them
 
@@ -146,6 +149,8 @@ trial-pick-target = Ziel wählen
 trial-pick-help = Danach auf das Gefäß klicken
 trial-click-entry = Auf das Gefäß klicken, wo der Draht hineinkommt.
 trial-click-target = Auf das Gefäß klicken, wohin er soll.
+trial-click-entry-touch = Auf das Gefäß tippen, wo der Draht hineinkommt.
+trial-click-target-touch = Auf das Gefäß tippen, wohin er soll.
 trial-seed = Startwert
 trial-seed-help = Variiert Einführstelle, Drehung und Reibung ein wenig; 0 variiert nichts. Wirkt nach einem Neustart
 trial-own = aus dem Beispiel

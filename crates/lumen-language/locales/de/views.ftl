@@ -143,6 +143,7 @@ views-next-error = Der Fehler beträgt { $cost } mm: der quadratische Mittelwert
 views-next-error-line = Der Fehler beträgt { $cost } mm: der quadratische Mittelwert der Abstände von den Ebenen, für die er steht, oder der Abstand von seiner Linie, wo dieser größer ist. Der größte bisher ist { $largest } mm.
 views-last-level = Dies ist die letzte Stufe: Kein Eckpunkt darf mehr wegfallen.
 views-click-vertex = In einer Ansicht auf einen Eckpunkt klicken, um zu sehen, wohin er gehen darf.
+views-click-vertex-touch = In einer Ansicht auf einen Eckpunkt tippen, um zu sehen, wohin er gehen darf.
 
 ## Wohin ein Eckpunkt gehen darf: Sätze, die hintereinander stehen
 

@@ -17,10 +17,15 @@ app-open = Open...
 app-open-help = A surface or settings (Ctrl+O); or drop a file
 # A menu of units: "mm...", "cm...", "m...".
 app-open-in = Open in
+app-open-units = Unit of the file's numbers
 app-open-in-help = Open a file whose numbers are in another unit than mm (glTF: m)
 # A menu of vessels that everybody has.
 app-sample = Sample
 app-save = Save
+# On a phone: menus of what can be saved.
+app-save-surface = Surface
+app-save-vessels = Vessels
+app-save-record = For the record
 app-undo = Undo
 app-undo-help = Undo (Ctrl+Z)
 app-redo = Redo
@@ -269,6 +274,8 @@ app-others = { $rest ->
    *[other] { $next } and { $rest } more came with it.
 }
 app-gone-back = Reduced by { $percent } %: more would not be safe.
+app-gone-back-kept = Reduced by { $percent } %: more would not keep the calibre where it is measured.
+app-gone-back-pinched = Reduced by { $percent } %: more would pinch a vessel.
 app-scan-cancelled = Cancelled; the scan was not opened.
 
 ## Work that ends before it is done

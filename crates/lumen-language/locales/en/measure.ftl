@@ -11,6 +11,8 @@ measure-back = Back
 measure-close-help = M, Esc
 measure-no-surface = There is no surface yet.
 measure-choose = Choose a tool, then click the surface in either view.
+# Where a finger points.
+measure-choose-touch = Choose a tool, then tap the surface in a view.
 # $hint is one of the sentences below that say where to click, without its full stop.
 measure-hint = { $hint }. Enter: the middle of the view; Esc: done.
 
@@ -38,6 +40,14 @@ measure-click-last = Click the last place
 measure-point-wall = Point at the wall to see its diameter; click to keep it
 measure-click-vessel = Click a vessel
 measure-click-branch = Click a branch beside a fork
+# The same by a finger.
+measure-tap-first = Tap the first place on the surface
+measure-tap-end = Tap the other end
+measure-tap-vertex = Tap the vertex of the angle
+measure-tap-last = Tap the last place
+measure-tap-wall = Tap the wall to measure its diameter
+measure-tap-vessel = Tap a vessel
+measure-tap-branch = Tap a branch beside a fork
 
 ## Why nothing was measured
 

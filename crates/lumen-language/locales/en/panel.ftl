@@ -226,7 +226,7 @@ panel-response-help = How much of a wave on the surface is left, by its length
 panel-response-length = Length of a wave, mm
 panel-response-eigenvalue = Eigenvalue k
 # Beside lines and points of the picture.
-panel-response-thinnest = thinnest: { $length }
+panel-response-thinnest = thinnest measured: { $length }
 panel-response-pass-band = pass band
 panel-response-half = half
 # Beside the pointer, in two lines.
@@ -240,8 +240,8 @@ panel-wave = Wave
 panel-wave-help = Its length on the surface; drag here or on the curve
 # $wave is a length with its unit, or "k = 0.0234".
 panel-wave-left = A wave of { $wave }: { $percent } % is left.
-panel-wave-left-thinnest = Around the thinnest vessel, { $length }: { $percent } %.
-panel-wave-left-thinnest-adapted = Around the thinnest vessel, { $length }: { $percent } %, more as it is adapted.
+panel-wave-left-thinnest = Around the thinnest vessel that is measured, { $length }: { $percent } %.
+panel-wave-left-thinnest-adapted = Around the thinnest vessel that is measured, { $length }: { $percent } %, more as it is adapted.
 panel-windows = Windows side by side
 panel-windows-help = The other three at the same pass band and iterations
 panel-windows-drawn = Thin: the others in the order of the list, dashed, dotted, in long dashes.
@@ -284,6 +284,8 @@ panel-auto = Automatic: 90 %, or as far as is safe
 # $percent is the rate that was come to: at most 90.
 panel-auto-most = Automatic: { $percent } %
 panel-auto-safe = Automatic: { $percent } %, as far as is safe
+panel-auto-kept = Automatic: { $percent } %, kept where measured
+panel-auto-pinched = Automatic: { $percent } %, none pinched
 panel-auto-deciding = Automatic: finding how far is safe
 panel-auto-help = Reduces by 90 %, or as far as every vessel keeps its calibre to { $tolerance } % and none is pinched, whichever is less. The slider sets a number instead.
 # Followed by a rate: reduction up to it changes no vessel too much.
@@ -294,7 +296,8 @@ panel-safe-refused = There is no such rate here: { $why }.
 # In place of "Safe to" where too little is measured to call the surface safe.
 panel-kept-to = Kept to
 # What the rate rests on: $coverage is "52 % of the length, 4 of 17 vessels".
-panel-safe-rests = Measured over { $coverage }.
+panel-safe-rests = Measured at { $percent } % over { $coverage }; the verdict goes by the level that is shown.
+panel-safe-rests-at = At { $percent } %: { $coverage }
 panel-safe-changed = Branches that smoothing itself changes by more do not count: { $count }.
 panel-safe-go-help = Sets the reduction to the mark under the slider
 panel-wanted = Triangles wanted

@@ -81,6 +81,8 @@ report-reduction = Reduction
 report-target-reduction = { $percent } % of the triangles
 report-target-auto = { $percent } % of the triangles, chosen automatically
 report-target-auto-safe = { $percent } % of the triangles, chosen automatically: as far as is safe
+report-target-auto-kept = { $percent } % of the triangles, chosen automatically: as far as vessels are kept where they are measured
+report-target-auto-pinched = { $percent } % of the triangles, chosen automatically: as far as no vessel is pinched
 report-target-triangles = { $count ->
     [one] to { $count } triangle
    *[other] to { $count } triangles

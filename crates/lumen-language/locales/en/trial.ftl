@@ -65,6 +65,9 @@ trial-steers = Autopilot: { $doing }.
 # W, S, A, D are keys.
 trial-feed-first = Feed (W, S) and roll (A, D) the wire to the target, or let the autopilot steer: time runs from then on.
 trial-feed = Feed (W, S) and roll (A, D) the wire to the target, or let the autopilot steer.
+# The same where a finger points: by the pads under the thumbs.
+trial-feed-first-touch = Feed and roll the wire to the target by the pads, or let the autopilot steer: time runs from then on.
+trial-feed-touch = Feed and roll the wire to the target by the pads, or let the autopilot steer.
 
 ## Gauges and numbers. The names are short: the number stands beside them
 
@@ -155,6 +158,8 @@ trial-pick-target = Pick target
 trial-pick-help = Then click the vessel
 trial-click-entry = Click the vessel where the wire enters.
 trial-click-target = Click the vessel where it should go.
+trial-click-entry-touch = Tap the vessel where the wire enters.
+trial-click-target-touch = Tap the vessel where it should go.
 trial-seed = Seed
 trial-seed-help = Varies entry, roll and friction a little; 0 varies nothing. Takes effect on restart
 

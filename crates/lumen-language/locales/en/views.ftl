@@ -149,6 +149,7 @@ views-next-error = Its error is { $cost } mm: the root mean square distance from
 views-next-error-line = Its error is { $cost } mm: the root mean square distance from the planes that it stands for, or its distance from its line where that is more. The largest so far is { $largest } mm.
 views-last-level = This is the last level: no vertex may go any more.
 views-click-vertex = Click a vertex in a view to see where it may go.
+views-click-vertex-touch = Tap a vertex in a view to see where it may go.
 
 ## Where a vertex may go: sentences that stand one behind the other
 

@@ -14,9 +14,14 @@ app-about-letters = Police : Ubuntu Light derivative Lumen, (c) Canonical Ltd, 
 app-open = Ouvrir...
 app-open-help = Une surface ou des réglages (Ctrl+O) ; ou déposer un fichier
 app-open-in = Unité
+app-open-units = Unité des nombres du fichier
 app-open-in-help = Ouvrir un fichier dont les nombres sont dans une autre unité que le mm (glTF : m)
 app-sample = Exemple
 app-save = Enregistrer
+# On a phone: menus of what can be saved.
+app-save-surface = Surface
+app-save-vessels = Vaisseaux
+app-save-record = Pour le dossier
 app-undo = Annuler
 app-undo-help = Annuler (Ctrl+Z)
 app-redo = Rétablir
@@ -258,6 +263,8 @@ app-others = { $rest ->
    *[other] { $next } et { $rest } autres sont arrivés avec lui.
 }
 app-gone-back = Réduit de { $percent } % : davantage ne serait pas sûr.
+app-gone-back-kept = Réduit de { $percent } % : davantage ne garderait pas le calibre là où il est mesuré.
+app-gone-back-pinched = Réduit de { $percent } % : davantage pincerait un vaisseau.
 app-scan-cancelled = Annulé ; le scan n'a pas été ouvert.
 
 ## Work that ends before it is done

@@ -8,6 +8,8 @@ measure-back = Retour
 measure-close-help = M, Échap
 measure-no-surface = Il n'y a pas encore de surface.
 measure-choose = Choisir un outil, puis cliquer sur la surface dans l'une des vues.
+# Where a finger points.
+measure-choose-touch = Choisir un outil, puis toucher la surface dans une vue.
 measure-hint = { $hint }. Entrée : le milieu de la vue ; Échap : terminé.
 
 ## Les outils
@@ -32,6 +34,14 @@ measure-click-last = Cliquer sur le dernier point
 measure-point-wall = Pointer la paroi pour voir son diamètre ; cliquer pour le garder
 measure-click-vessel = Cliquer sur un vaisseau
 measure-click-branch = Cliquer sur une branche à côté d'une bifurcation
+# The same by a finger.
+measure-tap-first = Toucher le premier point de la surface
+measure-tap-end = Toucher l'autre extrémité
+measure-tap-vertex = Toucher le sommet de l'angle
+measure-tap-last = Toucher le dernier point
+measure-tap-wall = Toucher la paroi pour mesurer son diamètre
+measure-tap-vessel = Toucher un vaisseau
+measure-tap-branch = Toucher une branche à côté d'une bifurcation
 
 ## Pourquoi rien n'a été mesuré
 

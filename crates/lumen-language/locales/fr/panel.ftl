@@ -232,7 +232,7 @@ panel-response-help = Combien il reste d'une onde sur la surface, selon sa longu
 panel-response-length = Longueur d'onde, mm
 panel-response-eigenvalue = Valeur propre k
 # Beside lines and points of the picture.
-panel-response-thinnest = le plus fin : { $length }
+panel-response-thinnest = le plus fin mesuré : { $length }
 panel-response-pass-band = bande passante
 panel-response-half = moitié
 # Beside the pointer, in two lines.
@@ -246,8 +246,8 @@ panel-wave = Onde
 panel-wave-help = Sa longueur sur la surface ; glisser ici ou sur la courbe
 # $wave is a length with its unit, or "k = 0.0234".
 panel-wave-left = D'une onde de { $wave }, il reste { $percent } %.
-panel-wave-left-thinnest = Autour du vaisseau le plus fin, { $length } : { $percent } %.
-panel-wave-left-thinnest-adapted = Autour du vaisseau le plus fin, { $length } : { $percent } %, davantage grâce à l'adaptation.
+panel-wave-left-thinnest = Autour du vaisseau mesuré le plus fin, { $length } : { $percent } %.
+panel-wave-left-thinnest-adapted = Autour du vaisseau mesuré le plus fin, { $length } : { $percent } %, davantage grâce à l'adaptation.
 panel-windows = Fenêtres côte à côte
 panel-windows-help = Les trois autres, à même bande passante et mêmes itérations
 panel-windows-drawn = Traits fins : les autres dans l'ordre de la liste, en tirets, en pointillé, en longs tirets.
@@ -290,6 +290,8 @@ panel-auto = Automatique : 90 %, ou le taux sûr
 # $percent is the rate that was come to: at most 90.
 panel-auto-most = Automatique : { $percent } %
 panel-auto-safe = Automatique : { $percent } %, le taux sûr
+panel-auto-kept = Automatique : { $percent } %, gardé où c'est mesuré
+panel-auto-pinched = Automatique : { $percent } %, aucun pincé
 panel-auto-deciding = Automatique : recherche du taux sûr
 panel-auto-help = Réduit de 90 %, ou tant que chaque vaisseau garde son calibre à { $tolerance } % près et qu'aucun n'est pincé, selon ce qui est moindre. Le curseur fixe un nombre à la place.
 # Followed by a rate: reduction up to it changes no vessel too much.
@@ -298,7 +300,8 @@ panel-safe-help = Jusqu'ici, chaque vaisseau mesurable garde son calibre à { $t
 # $why is a part of a sentence.
 panel-safe-refused = Il n'y a pas de tel taux ici : { $why }.
 panel-kept-to = Gardé jusqu'à
-panel-safe-rests = Mesuré sur { $coverage }.
+panel-safe-rests = Mesuré à { $percent } % sur { $coverage } ; le verdict porte sur le niveau montré.
+panel-safe-rests-at = À { $percent } % : { $coverage }
 panel-safe-changed = Les branches que le lissage lui-même change davantage ne comptent pas : { $count }.
 panel-safe-go-help = Place la réduction à la marque sous le curseur
 panel-wanted = Triangles voulus

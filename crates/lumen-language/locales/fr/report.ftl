@@ -76,6 +76,8 @@ report-reduction = Réduction
 report-target-reduction = { $percent } % des triangles
 report-target-auto = { $percent } % des triangles, choix automatique
 report-target-auto-safe = { $percent } % des triangles, choix automatique : le taux sûr
+report-target-auto-kept = { $percent } % des triangles, choix automatique : tant que les vaisseaux sont gardés là où ils sont mesurés
+report-target-auto-pinched = { $percent } % des triangles, choix automatique : tant qu'aucun vaisseau n'est pincé
 report-target-triangles = { $count ->
     [one] à { $count } triangle
    *[other] à { $count } triangles

@@ -64,6 +64,9 @@ trial-doing-withdrawing = retrait
 trial-doing-exchanging = retrait du guide pour en prendre un autre
 trial-feed-first = Avancer (W, S) et tourner (A, D) le guide jusqu'à la cible, ou laisser faire l'autopilote : le temps court à partir de là.
 trial-feed = Avancer (W, S) et tourner (A, D) le guide jusqu'à la cible, ou laisser faire l'autopilote.
+# The same where a finger points: by the pads under the thumbs.
+trial-feed-first-touch = Avancer et tourner le guide jusqu'à la cible par les plages du bas, ou laisser faire l'autopilote : le temps court à partir de là.
+trial-feed-touch = Avancer et tourner le guide jusqu'à la cible par les plages du bas, ou laisser faire l'autopilote.
 
 ## Gauges and numbers. The names are short: the number stands beside them
 
@@ -146,6 +149,8 @@ trial-pick-target = Choisir la cible
 trial-pick-help = Cliquer ensuite sur le vaisseau
 trial-click-entry = Cliquer sur le vaisseau là où le guide entre.
 trial-click-target = Cliquer sur le vaisseau là où il doit aller.
+trial-click-entry-touch = Toucher le vaisseau là où le guide entre.
+trial-click-target-touch = Toucher le vaisseau là où il doit aller.
 trial-seed = Graine
 trial-seed-help = Fait varier un peu l'entrée, la rotation et le frottement ; 0 ne change rien. Prend effet en relançant
 trial-own = celle de l'exemple

@@ -143,6 +143,7 @@ views-next-error = Son erreur est de { $cost } mm : la moyenne quadratique des 
 views-next-error-line = Son erreur est de { $cost } mm : la moyenne quadratique des distances aux plans qu'il représente, ou sa distance à sa ligne si elle est plus grande. La plus grande jusqu'ici est de { $largest } mm.
 views-last-level = C'est le dernier niveau : aucun sommet ne peut plus disparaître.
 views-click-vertex = Cliquer sur un sommet dans une vue pour voir où il peut aller.
+views-click-vertex-touch = Toucher un sommet dans une vue pour voir où il peut aller.
 
 ## Où un sommet peut aller : des phrases qui se suivent
 

@@ -89,6 +89,8 @@ fn a_typed_rate_and_a_typed_count_are_met() {
     type_into(&mut harness, "Triangles wanted", "18576");
     assert_eq!(harness.state().state().settings.target, Target::Triangles(18_576));
     assert!((18_575..=18_576).contains(&shown(&harness)));
+    let field = harness.get_by_role_and_label(Role::SpinButton, "Triangles wanted");
+    assert_eq!(field.accesskit_node().value().as_deref(), Some("18,576"), "in groups, as all other counts");
 }
 
 #[test]

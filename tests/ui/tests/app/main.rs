@@ -7,6 +7,7 @@ mod compare;
 mod controls;
 mod deviation;
 mod device;
+mod embedded;
 mod explain;
 mod flight;
 mod keys;

@@ -50,6 +50,7 @@ fn letters_grow_the_panel_goes_but_for_what_is_dragged_and_escape_brings_all_bac
         harness.key_press(Key::Escape);
         harness.run_steps(4);
         assert!(has_panel(&harness) && (harness.ctx.zoom_factor() - zoom).abs() < 1e-6);
+        assert!(!says(&harness, "P or Esc ends it"), "it has ended");
     }
 }
 

@@ -29,6 +29,14 @@ fn click(harness: &mut Harness<'_, LumenApp>, label: &str) {
     harness.run_steps(3);
 }
 
+/// Asks for a report in the menu of what can be saved: on a phone it has a menu of its own.
+fn report(harness: &mut Harness<'_, LumenApp>, size: [f32; 2]) {
+    if size == PHONE {
+        click(harness, "For the record");
+    }
+    click(harness, "Report...");
+}
+
 fn info(bytes: &[u8]) -> png::Reader<std::io::Cursor<&[u8]>> {
     png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap()
 }
@@ -39,14 +47,14 @@ fn the_menu_repeats_the_verdict_and_gives_a_report_in_both_forms() {
         let (mut harness, memory) = seen(|| opened(size));
         menu(&mut harness);
         assert!(says(&harness, "Safe to simulate on: ") && says(&harness, " keep their calibre to 2 %"));
-        click(&mut harness, "Report...");
+        report(&mut harness, size);
         click(&mut harness, "Save as PDF...");
         let (name, pdf) = offered(&mut harness, &memory);
         assert_eq!(name, "abdominal-aorta-report.pdf");
         let count = |mark: &[u8]| pdf.windows(mark.len()).filter(|part| *part == mark).count();
         assert!(pdf.starts_with(b"%PDF-1.7") && count(b"/Predictor 15") == 4);
         menu(&mut harness);
-        click(&mut harness, "Report...");
+        report(&mut harness, size);
         click(&mut harness, "Save as web page...");
         let (name, page) = offered(&mut harness, &memory);
         assert_eq!(name, "abdominal-aorta-report.html");
@@ -76,7 +84,7 @@ fn case_and_comment_stand_in_the_report_alone_until_another_surface_is_opened() 
     let (mut harness, memory) = page(PHONE, Kept::default());
     settle_wholly(&mut harness);
     menu(&mut harness);
-    click(&mut harness, "Report...");
+    report(&mut harness, PHONE);
     write(&mut harness, Role::TextInput, "Case", "Case <12> & co");
     write(&mut harness, Role::MultilineTextInput, "Comment", "Stent planned.\nBring \"B\".");
     click(&mut harness, "Save as web page...");
@@ -88,6 +96,7 @@ fn case_and_comment_stand_in_the_report_alone_until_another_surface_is_opened() 
     }
     // It can be written again, but nothing else has it.
     menu(&mut harness);
+    click(&mut harness, "For the record");
     click(&mut harness, "Settings...");
     let (_, settings) = offered(&mut harness, &memory);
     harness.run_steps(12);
@@ -96,12 +105,12 @@ fn case_and_comment_stand_in_the_report_alone_until_another_surface_is_opened() 
         assert!(!["Case", "Stent"].iter().any(|said| text.contains(said)), "{text}");
     }
     menu(&mut harness);
-    click(&mut harness, "Report...");
+    report(&mut harness, PHONE);
     assert_eq!(said(&harness), ["Case <12> & co", "Stent planned.\nBring \"B\"."]);
     click(&mut harness, "Close");
     open(&mut harness, &memory, "other.obj", tube(5.0, 60.0, 1.0));
     menu(&mut harness);
-    click(&mut harness, "Report...");
+    report(&mut harness, PHONE);
     assert_eq!(said(&harness), ["", ""]);
     // Undo in the field brings back nothing of the surface before.
     harness.get_by_role_and_label(Role::MultilineTextInput, "Comment").focus();

@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen_ui_tests::told::{put_on, wait};
-use lumen_ui_tests::{PHONE, app, in_hand, phone, settle, settle_wholly, unfold};
+use lumen_ui_tests::{PHONE, app, in_hand, phone, says, settle, settle_wholly, unfold};
 
 use crate::controls::shown;
 use crate::recovery::tell;
@@ -243,6 +243,93 @@ fn the_panel_is_drawn_up_and_down_and_rests_at_three_heights() {
     assert!((place(&harness).top() - half.top()).abs() < 1.0 && has_rest(&harness));
 }
 
+/// Puts a finger down and takes it up again in the next frame.
+fn tap(harness: &mut App, at: Pos2) {
+    finger(harness, TouchPhase::Start, at);
+    harness.hover_at(at);
+    harness.drag_at(at);
+    harness.run_steps(1);
+    finger(harness, TouchPhase::End, at);
+    harness.drop_at(at);
+    harness.run_steps(3);
+}
+
+/// Whether this stands in what a tap or a resting pointer shows.
+fn explains(harness: &App, words: &str) -> bool {
+    let window = harness.ctx.content_rect();
+    harness.query_all_by_label_contains(words).any(|node| window.contains_rect(node.rect()))
+}
+
+#[test]
+fn a_tap_on_a_name_explains_it_until_the_next_tap() {
+    let (mut harness, _) = phone();
+    settle_wholly(&mut harness);
+    for (name, words) in [
+        ("Pass band", "What passes the filter"),
+        ("Safe to", "keeps its calibre to"),
+        ("Triangles", "After and before the red"),
+    ] {
+        let at = harness.query_all_by_role_and_label(Role::Label, name).last().expect(name).rect().center();
+        assert!(!explains(&harness, words), "{words} before {name} is tapped");
+        tap(&mut harness, at);
+        assert!(explains(&harness, words), "{words} where {name} is tapped");
+        let elsewhere = harness.get_by_role_and_label(Role::Image, "Shaded view").rect().center();
+        tap(&mut harness, elsewhere);
+        assert!(!explains(&harness, words), "{words} after the next tap");
+    }
+    // A second tap on the name takes it away as well, and a mouse shows it where it rests.
+    let at = harness.query_all_by_role_and_label(Role::Label, "Pass band").last().expect("it is there").rect().center();
+    for is_shown in [true, false] {
+        tap(&mut harness, at);
+        assert_eq!(explains(&harness, "What passes the filter"), is_shown);
+    }
+    // A sentence that is cut off is whole there.
+    let told = |harness: &App| harness.query_all_by_label_contains("5 of 7 vessels were measured").count();
+    let (before, at) = (told(&harness), harness.get_by_label_contains("5 of 7 vessels were measured").rect().center());
+    tap(&mut harness, at);
+    assert_eq!(told(&harness), before + 1);
+    // What is told goes by what points.
+    harness.get_by_role_and_label(Role::Button, "Open in").click();
+    harness.run_steps(3);
+    assert!(explains(&harness, "Unit of the file's numbers"));
+}
+
+#[test]
+fn what_to_do_is_told_without_clicks_and_keys() {
+    let (mut harness, memory) = phone();
+    settle(&mut harness);
+    harness.key_press(Key::M);
+    harness.run_steps(4);
+    let speaks_of_a_mouse = |harness: &App| ["lick", "Esc", "(W, S)"].iter().any(|words| says(harness, words));
+    assert!(says(&harness, "then tap the surface") && !speaks_of_a_mouse(&harness));
+    for (tool, words) in [("Ruler", "Tap the first place"), ("Diameter", "Tap the wall"), ("Section", "Tap a vessel")] {
+        click(&mut harness, tool);
+        assert!(says(&harness, words) && !speaks_of_a_mouse(&harness), "{tool}");
+    }
+    harness.key_press(Key::M);
+    harness.run_steps(4);
+    put_on(&mut harness, &memory);
+    assert!(!speaks_of_a_mouse(&harness), "in a trial");
+}
+
+#[test]
+fn what_is_saved_stands_in_menus_that_a_phone_has_room_for() {
+    let (mut harness, memory) = phone();
+    settle_wholly(&mut harness);
+    harness.get_by_role_and_label(Role::Button, "Save").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label("STL...").is_none());
+    for menu in ["Surface", "Vessels", "For the record"] {
+        let rect = harness.get_by_role_and_label(Role::Button, menu).rect();
+        assert!(harness.ctx.content_rect().contains_rect(rect), "{menu} at {rect}");
+    }
+    harness.get_by_role_and_label(Role::Button, "Surface").click();
+    harness.run_steps(3);
+    fits_a_finger(&harness, "the formats");
+    harness.get_by_label("STL...").click();
+    assert!(lumen_ui_tests::offered(&mut harness, &memory).0.ends_with(".stl"));
+}
+
 #[test]
 fn every_target_is_as_large_as_a_fingertip() {
     let (mut harness, memory) = phone();
@@ -269,6 +356,9 @@ fn so_is_every_target_over_vessels_measures_and_what_is_saved() {
     harness.get_by_role_and_label(Role::Button, "Save").click();
     harness.run_steps(3);
     fits_a_finger(&harness, "what can be saved");
+    harness.get_by_role_and_label(Role::Button, "For the record").click();
+    harness.run_steps(3);
+    fits_a_finger(&harness, "what is for the record");
     let last = harness.get_by_role_and_label(Role::Button, "Settings...").rect();
     assert!(last.height() >= 44.0 && harness.query_by_role_and_label(Role::Button, "Report...").is_some());
     harness.get_by_role_and_label(Role::Button, "Report...").click();

@@ -54,6 +54,17 @@ fn every_branch_has_a_row_and_a_click_goes_to_where_it_changes_most() {
 }
 
 #[test]
+fn no_column_is_cut_off_beside_the_plot() {
+    let harness = vessels(DESKTOP);
+    let plot = harness.get_by_role_and_label(Role::Image, "Radius along branch 1").rect();
+    let head = |label: &str| harness.get_by_role_and_label(Role::Label, label).rect();
+    let heads = ["Vessel", "Measured", "Length, mm", "Tortuosity", "Uneven"].map(head);
+    assert!(heads.windows(2).all(|pair| pair[0].right() <= pair[1].left()), "{heads:?}");
+    assert!(heads[4].right() < plot.left(), "{} beside {plot}", heads[4]);
+    assert!(plot.width() > 180.0, "{plot}");
+}
+
+#[test]
 fn the_allowed_change_decides_the_verdict_and_is_a_step_to_undo() {
     let mut harness = vessels(DESKTOP);
     // By hand: an automatic reduction goes by the allowed change, and what is measured is another level then.
@@ -215,13 +226,11 @@ fn what_smoothing_draws_shut_is_told_as_changed_by_smoothing() {
     assert!(says(&harness, "Smoothing itself changes"));
 }
 
-#[test]
-fn the_reference_of_a_narrowing_is_chosen_and_dragged() {
-    let (mut harness, memory) = app(DESKTOP);
-    settle(&mut harness);
-    // 60 mm long and 12 mm wide, to 9 mm in its middle.
-    let wide = |z: f64| 6.0 - 1.5 * (-(z - 30.0) * (z - 30.0) / 50.0).exp();
-    let bytes = String::from_utf8(tube(6.0, 60.0, 0.8)).unwrap();
+/// A tube so many mm long and 12 mm wide, to so many in its middle: a bell whose width squared is half of `spread` mm².
+pub(crate) fn narrowed(length: f64, least: f64, spread: f64) -> Vec<u8> {
+    let middle = length / 2.0;
+    let wide = |z: f64| 6.0 - (12.0 - least) / 2.0 * (-(z - middle) * (z - middle) / spread).exp();
+    let bytes = String::from_utf8(tube(6.0, length, 0.8)).unwrap();
     let narrowed = bytes.lines().map(|line| {
         let numbers: Vec<f64> = line.split(' ').skip(1).filter_map(|word| word.parse().ok()).collect();
         match (line.strip_prefix("v "), &numbers[..]) {
@@ -229,7 +238,44 @@ fn the_reference_of_a_narrowing_is_chosen_and_dragged() {
             _ => format!("{line}\n"),
         }
     });
-    open(&mut harness, &memory, "narrowed.obj", narrowed.collect::<String>().into_bytes());
+    narrowed.collect::<String>().into_bytes()
+}
+
+#[test]
+fn what_is_shown_of_a_narrowing_is_its_place_its_length_and_what_it_is_measured_by() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    open(&mut harness, &memory, "narrowed.obj", narrowed(100.0, 5.0, 20.0));
+    settle_wholly(&mut harness);
+    let found = calibre(&mut harness).found.unwrap();
+    let branch = found.branches.iter().find(|branch| branch.uneven()[0].is_some()).expect("a narrowing");
+    let narrowing = branch.uneven()[0].unwrap();
+    let is_there = |harness: &Harness<'_, LumenApp>| {
+        let camera = harness.state().camera();
+        let at = camera.target.distance(narrowing.at_mm.into());
+        assert!(at < 1e-3, "{at} mm away");
+        let (along, beside) = harness.state().marked();
+        assert!(along.len() >= 3 && beside.len() == narrowing.sides.iter().flatten().count(), "{along:?} {beside:?}");
+        assert!(beside.iter().all(|label| label.starts_with("reference ") && label.ends_with(" mm")), "{beside:?}");
+    };
+    press(&mut harness, Role::Button, "1 note");
+    press(&mut harness, Role::Button, "Show me");
+    is_there(&harness);
+    harness.key_press(Key::V);
+    harness.run_steps(4);
+    harness.get_by_role_and_label(Role::Image, &format!("Radius along {}", branch.name));
+    harness.key_press(Key::F);
+    harness.run_steps(3);
+    assert!(harness.state().marked().0.is_empty());
+    press(&mut harness, Role::Button, &branch.name);
+    is_there(&harness);
+}
+
+#[test]
+fn the_reference_of_a_narrowing_is_chosen_and_dragged() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    open(&mut harness, &memory, "narrowed.obj", narrowed(60.0, 9.0, 50.0));
     harness.key_press(Key::V);
     harness.run_steps(4);
     assert!(!says(&harness, "by the diameter at"));
