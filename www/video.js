@@ -3,13 +3,15 @@
 const KINDS = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
 const kind = () => KINDS.find((kind) => globalThis.MediaRecorder?.isTypeSupported(kind));
 const BITS_PER_SECOND = 8e6;
+/** What is asked for a frame: a track by the standard, the stream in Firefox. */
+const REQUESTS = [globalThis.CanvasCaptureMediaStreamTrack, globalThis.CanvasCaptureMediaStream];
 
 const after = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 const shown = () => new Promise((resolve) => addEventListener("visibilitychange", resolve, { once: true }));
 
 globalThis.lumenVideo = {
   /** Whether the browser can record. */
-  can: () => kind() !== undefined && "captureStream" in HTMLCanvasElement.prototype,
+  can: () => kind() !== undefined && "captureStream" in HTMLCanvasElement.prototype && REQUESTS.some((of) => of?.prototype.requestFrame),
 
   /** The bytes of a video of these frames (RGBA, rows from the top), each of which is seen for `pause` ms. It takes as long as it plays. */
   async record(frames, width, height, pause) {
@@ -33,7 +35,7 @@ globalThis.lumenVideo = {
         recorder.resume();
       }
       context.putImageData(new ImageData(pixels, width, height), 0, 0);
-      track.requestFrame();
+      (track.requestFrame ? track : stream).requestFrame();
       await after(pause);
     }
     recorder.stop();

@@ -121,6 +121,7 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
             asked.push(what);
         }
     };
+    let can_compare = state.document.is_some() && !matches!(shown.mode, Mode::Trial | Mode::Scan);
     ui.horizontal_centered(|ui| {
         let room = Room::of(ui, shown);
         if room == Room::Name {
@@ -129,7 +130,9 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
         }
         ask(ui.button(say!("app-open")).on_hover_text(say!("app-open-help")).clicked(), Action::Open);
         if room >= Room::Units {
-            icon_menu(ui, Icon::Down, &say!("app-open-in"), &say!("app-open-in-help"), &mut |ui| units(ui, &mut ask));
+            icon_menu(ui, Icon::Down, &say!("app-open-in"), &say!("app-open-in-help"), &mut |ui| {
+                units(ui, can_compare, &mut ask)
+            });
         }
         menu(ui, &say!("app-sample"), &mut |ui| {
             for sample in Sample::ALL {
@@ -167,7 +170,7 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
             } else {
                 icon_menu(ui, Icon::Menu, &say!("app-menu"), &say!("app-menu-help"), &mut |ui| {
                     if room < Room::Units {
-                        menu(ui, &say!("app-open-in"), &mut |ui| units(ui, &mut ask));
+                        menu(ui, &say!("app-open-in"), &mut |ui| units(ui, can_compare, &mut ask));
                     }
                     more(ui, state, views, shown, room, &mut ask);
                 });
@@ -311,14 +314,15 @@ fn of_views(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, ask: &m
 }
 
 /// Files whose numbers are in another unit.
-fn units(ui: &mut Ui, ask: &mut impl FnMut(bool, Action)) {
+fn units(ui: &mut Ui, can_compare: bool, ask: &mut impl FnMut(bool, Action)) {
     ui.set_min_width(ui.spacing().interact_size.x);
     ui.label(RichText::new(say!("app-open-units")).small().weak());
     for unit in Unit::ALL {
         ask(ui.button(format!("{unit}...")).clicked(), Action::OpenIn(unit));
     }
     ui.separator();
-    let compare = ui.button(say!("reference-open")).on_hover_text(say!("reference-open-help"));
+    let compare = ui.add_enabled(can_compare, Button::new(say!("reference-open")));
+    let compare = compare.on_hover_text(say!("reference-open-help"));
     ask(compare.clicked(), Action::Reference(reference::Action::Choose));
 }
 

@@ -398,7 +398,7 @@ impl State {
     /// Shows the compare view or leaves it. The first time it has the settings in force at the three rates of the
     /// paper's Figure 7, which need no more than three levels of what is there.
     pub fn toggle_comparison(&mut self) {
-        let is_open = !self.comparison.is_open() || self.against.is_open;
+        let is_open = !self.comparison.is_open() && !self.against.is_open;
         self.leave_modes();
         self.comparison.set_open(is_open);
         if is_open && self.comparison.cells().is_empty() {

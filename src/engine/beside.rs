@@ -10,7 +10,7 @@ use super::progress::tell_progress;
 use super::source::Source;
 use crate::language::tell;
 use crate::mesh::{Measures, Topology, TriMesh, measures};
-use crate::pipeline::beside::{Align, BesideReport, FileFrame, Looking, Placed, Side, beside, placed};
+use crate::pipeline::beside::{Align, BesideReport, FileFrame, Looking, Placed, Side, axes_differ, beside, placed};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::task::{Budget, Progress, Running, Yielder};
 
@@ -53,7 +53,7 @@ async fn compared(
     (align, tolerance_percent): (Align, f64),
     yielder: &Yielder,
 ) -> Result<TwoFiles, String> {
-    let name = source.name().to_owned();
+    let (name, is_file) = (source.name().to_owned(), matches!(source, Source::File { .. }));
     let Read { imported, digest } = read(source, &name, &yielder.part(0.0..READ)).await?;
     let (report, reference) = (imported.report, Arc::new(imported.mesh));
     let to = FileFrame::from(&report);
@@ -77,7 +77,9 @@ async fn compared(
         report: BesideReport::new(sides, moved, &found, tolerance_percent),
         csv: found.csv(),
         refused: found.calibre.as_ref().err().cloned(),
-        lie_apart: align != Align::Rigid && found.lie_apart(&reference),
+        lie_apart: found.lie_apart(&reference),
+        axes_differ: align == Align::Still && axes_differ(to, of.frame),
+        unit: is_file.then_some(report.unit),
         warnings: report.warnings,
         over_reference: found.over_reference.map_or_else(Default::default, Into::into),
         over_surface: found.over_surface.into(),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::surfaces::{levels, surface};
-use crate::io::{ImportReport, Warning};
+use crate::io::{ImportReport, Unit, Warning};
 use crate::mesh::mending::{FaultCounts, FaultPlace};
 use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::beside::{BesideReport, Distances};
@@ -81,8 +81,12 @@ pub struct TwoFiles {
     pub refused: Option<CalibreError>,
     /// The table of stations, where there are vessels.
     pub csv: Option<String>,
-    /// Whether they lie so far apart that one of them should be moved.
+    /// Whether they lie so far apart that they are hardly of one vessel in one place.
     pub lie_apart: bool,
+    /// Whether one is in LPS and the other in RAS, and neither was turned.
+    pub axes_differ: bool,
+    /// The unit of the numbers in the reference's file; none of a sample.
+    pub unit: Option<Unit>,
     /// What looked odd about the reference's file.
     pub warnings: Vec<Warning>,
 }

@@ -11,6 +11,7 @@ use crate::app::action::Action;
 use crate::app::assist::name;
 use crate::app::icon::{self, Icon};
 use crate::app::menus::icon_menu;
+use crate::app::state::State;
 use crate::app::{record, reference};
 use crate::language::decimal;
 use crate::pipeline::settings::Settings;
@@ -22,14 +23,10 @@ const MANY: usize = 300_000;
 
 /// What can be done; whether the button that shows the first settings everywhere is held. A phone has room for one row: the
 /// rest is in a menu.
-pub(super) fn bar(
-    ui: &mut Ui,
-    comparison: &Comparison,
-    settings: &Settings,
-    is_narrow: bool,
-    shows_first: bool,
-    asked: &mut Vec<Action>,
-) -> bool {
+pub(super) fn bar(ui: &mut Ui, state: &State, is_narrow: bool, shows_first: bool, asked: &mut Vec<Action>) -> bool {
+    let State { comparison, settings, against, .. } = state;
+    let file = against.source.as_ref().map(|source| source.label());
+    let file = file.as_deref();
     let mut is_held = false;
     let mut ask = |action: Action| asked.push(action);
     ui.horizontal_wrapped(|ui| {
@@ -48,11 +45,11 @@ pub(super) fn bar(
             icon_menu(ui, Icon::Menu, &say!("compare-more"), &say!("compare-more-help"), &mut |ui| {
                 arrangements(ui, comparison, &mut ask);
                 ui.separator();
-                others(ui, comparison, &mut ask);
+                others(ui, comparison, file, &mut ask);
             });
             icon::button(ui, Icon::Close, true, &say!("compare-done"), &help).clicked()
         } else {
-            others(ui, comparison, &mut ask);
+            others(ui, comparison, file, &mut ask);
             ui.button(say!("compare-done")).on_hover_text(help).clicked()
         };
         if is_done {
@@ -90,8 +87,9 @@ fn arrangements(ui: &mut Ui, comparison: &Comparison, asked: &mut dyn FnMut(Acti
     }
 }
 
-/// Colours for the difference from the first, the ways to where it is largest and back, and the picture for a file.
-fn others(ui: &mut Ui, comparison: &Comparison, asked: &mut dyn FnMut(Action)) {
+/// Colours for the difference from the first, the ways to where it is largest and back, another `file` that is compared, and
+/// the picture for a file.
+fn others(ui: &mut Ui, comparison: &Comparison, file: Option<&str>, asked: &mut dyn FnMut(Action)) {
     let toggle = egui::Button::new(say!("compare-difference")).selected(comparison.shows_difference);
     let toggle = ui.add_enabled(comparison.cells().len() > 1, toggle);
     if toggle.on_hover_text(say!("compare-difference-help")).clicked() {
@@ -105,6 +103,11 @@ fn others(ui: &mut Ui, comparison: &Comparison, asked: &mut dyn FnMut(Action)) {
     }
     if ui.button(say!("reference-open")).on_hover_text(say!("reference-open-help")).clicked() {
         asked(Action::Reference(reference::action::Action::Choose));
+    }
+    if let Some(file) = file
+        && ui.button(say!("reference-back", name = file)).on_hover_text(say!("reference-back-help")).clicked()
+    {
+        asked(Action::Reference(reference::action::Action::Show(true)));
     }
     if ui.button(say!("compare-whole")).on_hover_text(say!("compare-whole-help")).clicked() {
         asked(Action::Fit);

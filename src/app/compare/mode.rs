@@ -75,7 +75,6 @@ impl Filling for CompareView {
     }
 
     fn fill(&mut self, ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) -> Vec<Action> {
-        let State { comparison, settings, document, .. } = state;
-        self.show_cells(ui, comparison, views, settings, document.as_ref(), is_narrow)
+        self.show_cells(ui, state, views, is_narrow)
     }
 }

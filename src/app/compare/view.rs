@@ -16,6 +16,7 @@ use crate::app::document::Document;
 use crate::app::graphics_error::surface_error;
 use crate::app::halo;
 use crate::app::icon::{self, Icon};
+use crate::app::state::State;
 use crate::app::theme;
 use crate::app::views::{NO_MEMORY, Views};
 use crate::pipeline::settings::Settings;
@@ -89,16 +90,10 @@ impl CompareView {
         self.is_refused |= self.scene.take().is_some();
     }
 
-    /// Shows the comparison in what is left of `ui`; `settings` are those in force.
-    pub(super) fn show_cells(
-        &mut self,
-        ui: &mut Ui,
-        comparison: &Comparison,
-        views: &mut Views,
-        settings: &Settings,
-        document: Option<&Document>,
-        is_narrow: bool,
-    ) -> Vec<Action> {
+    /// Shows the comparison in what is left of `ui`.
+    pub(super) fn show_cells(&mut self, ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) -> Vec<Action> {
+        let State { comparison, settings, document, .. } = state;
+        let document = document.as_ref();
         let mut asked = Vec::new();
         // Who has chosen a place looks there, whatever else is to be seen.
         self.look.was_moved |= self.look.last.map_or(!views.is_fitted(), |last| last != views.camera);
@@ -122,7 +117,7 @@ impl CompareView {
             if !figure.is_empty() && !is_narrow {
                 ui.label(RichText::new(figure).small().weak());
             }
-            let is_held = bar(ui, comparison, settings, is_narrow, self.shows_first, &mut asked);
+            let is_held = bar(ui, state, is_narrow, self.shows_first, &mut asked);
             let by_key = ui.input(|input| input.key_down(egui::Key::X)) && !ui.ctx().text_edit_focused();
             self.shows_first = is_held || by_key;
             if comparison.shows_difference && comparison.cells().len() > 1 {

@@ -19,6 +19,7 @@ use super::collapses;
 use super::deviating::Deviating;
 use super::mode::{Acting, Beside, Layer, Now, Panel, Place};
 use super::options::{Colours, ViewOptions};
+use super::reference;
 use super::reveal::Reveal;
 use super::row::Part;
 use super::state::State;
@@ -158,6 +159,9 @@ impl Lessons {
         }
         if now.state.comparison.is_open() {
             asked.push(Ask::Compare);
+        }
+        if now.state.against.is_open {
+            asked.push(Ask::Reference(reference::Action::Show(false)));
         }
         if let Some(settings) = settings {
             let keep = now.state.settings.keep;

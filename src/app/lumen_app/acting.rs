@@ -8,6 +8,7 @@ use crate::app::action::Action;
 use crate::app::keys::{self, Keys};
 use crate::app::mode::{Acting, Beside, Entry, Group, Layer, Mode, Panel};
 use crate::app::record::Sight;
+use crate::app::reference::against::Next;
 use crate::app::row::Part;
 use crate::app::sharing::Sharing;
 use crate::app::sheets::{self, Sheet};
@@ -188,12 +189,13 @@ impl LumenApp {
         match action {
             Action::Prepare => self.prepare(ctx),
             Action::OpenNext => {
+                state.against.expect(Next::Surface);
                 state.notices.take_away();
                 self.platform.open_next();
             }
             Action::TakeAway => state.notices.take_away(),
             Action::Open | Action::OpenIn(_) => {
-                state.against.await_file(false);
+                state.against.expect(Next::Surface);
                 state.next_unit = if let Action::OpenIn(unit) = action { Some(unit) } else { None };
                 self.platform.choose_file(ctx);
             }
@@ -303,7 +305,10 @@ impl LumenApp {
                 Ok(()) => self.act_on_lesson(lesson::Action::Go(0), ctx),
                 Err(sentence) => self.state.warn(&sentence),
             },
-            lesson::Action::Choose => self.platform.choose_file(ctx),
+            lesson::Action::Choose => {
+                self.state.against.expect(Next::Surface);
+                self.platform.choose_file(ctx);
+            }
             lesson::Action::Go(step) => {
                 self.leave_scan();
                 self.panels.playback.close(&mut self.state);

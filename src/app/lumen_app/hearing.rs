@@ -19,6 +19,9 @@ impl LumenApp {
     /// Hears what platform and engines have to say, deaths among it.
     pub(super) fn listen(&mut self, ctx: &egui::Context) {
         while let Some(event) = self.platform.poll() {
+            // Whatever the file is, it was the next.
+            let has_come = matches!(event, PlatformEvent::Chosen { .. } | PlatformEvent::Scan { .. });
+            let is_reference = has_come && self.state.takes_reference();
             match event {
                 PlatformEvent::Chosen { name, bytes } if is_log(&name) => {
                     self.panels.trial.trial.replay(bytes, self.state.document.as_ref(), self.platform.trial());
@@ -32,16 +35,19 @@ impl LumenApp {
                         Err(error) => self.state.warn(&say!("app-open-failed", name = name, why = error.to_string())),
                     }
                 }
-                PlatformEvent::Chosen { name, bytes } if self.state.takes_reference() => {
+                PlatformEvent::Chosen { name, bytes } if is_reference => {
+                    let warning = self.too_large(&name, &bytes);
                     self.state.compare_with(name, bytes);
+                    if let Some(warning) = warning {
+                        self.state.tell(&warning);
+                    }
                 }
                 PlatformEvent::Chosen { name, bytes } => {
                     self.leave_scan();
                     // What was asked for last counts.
                     self.sharing.before_file(&mut self.state);
                     self.recovery.before_file(&name, &mut self.state);
-                    let limit = self.platform.memory_limit();
-                    let warning = limit.and_then(|limit| large::warning(&name, &bytes, limit));
+                    let warning = self.too_large(&name, &bytes);
                     self.state.open_file(name, bytes, self.platform.link());
                     if let Some(warning) = warning {
                         self.state.tell(&warning);
@@ -96,6 +102,11 @@ impl LumenApp {
             self.state.warn(&sentence);
         }
         self.listen_to_scans();
+    }
+
+    /// A sentence where a file may need more memory than an engine can have.
+    fn too_large(&self, name: &str, bytes: &[u8]) -> Option<String> {
+        self.platform.memory_limit().and_then(|limit| large::warning(name, bytes, limit))
     }
 
     /// Lets what is outside the state follow it.

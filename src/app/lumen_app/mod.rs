@@ -21,6 +21,7 @@ use super::platform::Platform;
 use super::presenter::Presenter;
 use super::record::{self, Record};
 use super::recovery::{self, Recovery};
+use super::reference::against::Next;
 use super::sharing::Sharing;
 use super::sheets::{self, Sheet};
 use super::speech::Speech;
@@ -315,7 +316,7 @@ impl eframe::App for LumenApp {
         if !dropped.is_empty() && !self.platform.is_embedded() {
             // The unit was chosen for a file of the dialog.
             self.state.next_unit = None;
-            self.state.against.await_file(false);
+            self.state.against.expect(Next::Dropped);
             self.platform.read_dropped(dropped, &ctx);
         }
         self.suit_window(&ctx);

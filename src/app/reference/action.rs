@@ -1,5 +1,6 @@
 //! What is asked of the comparison with another file.
 
+use crate::io::Unit;
 use crate::pipeline::beside::Align;
 
 /// What is asked.
@@ -9,6 +10,8 @@ pub enum Action {
     Choose,
     /// Compare with the next of the files that came together.
     TakeNext,
+    /// Read the file with its numbers in this unit.
+    Unit(Unit),
     /// Compare the level, or the surface as it was opened.
     OfLevel(bool),
     /// Move the surface so first.

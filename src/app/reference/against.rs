@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::app::document::Revision;
 use crate::engine::{FilesCompared, Over, Source, TwoFiles};
+use crate::io::{Axes, Unit};
 use crate::pipeline::beside::Align;
 
 /// What is compared, and how.
@@ -14,6 +15,8 @@ pub(in crate::app) struct Question {
     align: Align,
     tolerance_percent: f64,
     surface: Judged,
+    /// What the surface's coordinates grow towards, as the file or the user says.
+    axes: Axes,
 }
 
 /// Which surface is compared with the file.
@@ -34,6 +37,18 @@ pub struct Found {
     pub over: [[Arc<Vec<f32>>; 2]; 2],
 }
 
+/// What the next file that comes is taken for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::app) enum Next {
+    /// It was dropped: the reference where the comparison has the window, else a surface.
+    #[default]
+    Dropped,
+    /// A surface to be opened.
+    Surface,
+    /// The reference.
+    Reference,
+}
+
 /// Another file that the open surface is compared with.
 #[derive(Debug, Default)]
 pub struct Against {
@@ -47,8 +62,8 @@ pub struct Against {
     pub of_level: bool,
     /// Whether inside and outside have the same colours.
     pub is_plain: bool,
-    /// Whether the next file that is chosen is the reference.
-    awaits_file: bool,
+    /// What the next file is.
+    next: Next,
     /// How many files were taken.
     taken: u64,
     asked: Option<(u64, Question)>,
@@ -59,15 +74,18 @@ pub struct Against {
 }
 
 impl Against {
-    /// The next file that is chosen is the reference, or no longer.
-    pub(in crate::app) fn await_file(&mut self, awaits: bool) {
-        self.awaits_file = awaits;
+    /// Notes what the next file is.
+    pub(in crate::app) fn expect(&mut self, next: Next) {
+        self.next = next;
     }
 
-    /// Whether a file that was chosen, or dropped, is the reference: where one was asked for, or where the window is that of
-    /// the comparison.
+    /// Whether a file that has come is the reference. Nothing is known of the one after it.
     pub(in crate::app) fn takes_file(&mut self) -> bool {
-        std::mem::take(&mut self.awaits_file) || self.is_open
+        match std::mem::take(&mut self.next) {
+            Next::Dropped => self.is_open,
+            Next::Surface => false,
+            Next::Reference => true,
+        }
     }
 
     /// Compares with this.
@@ -76,12 +94,20 @@ impl Against {
         (self.source, self.is_open, self.stopped) = (Some(source), true, None);
     }
 
+    /// Reads the file with its numbers in this unit.
+    pub(in crate::app) fn read_in(&mut self, unit: Unit) {
+        if let Some(Source::File { options, .. }) = &mut self.source {
+            options.unit = Some(unit);
+            self.taken += 1;
+        }
+    }
+
     /// What is to be asked and was not yet.
-    pub(in crate::app) fn next(&self, revision: Revision, tolerance_percent: f64) -> Option<Question> {
+    pub(in crate::app) fn next(&self, revision: Revision, axes: Axes, tolerance_percent: f64) -> Option<Question> {
         if !self.is_open || self.source.is_none() || self.stopped.is_some() {
             return None;
         }
-        let question = self.question(revision, tolerance_percent);
+        let question = self.question(revision, axes, tolerance_percent);
         let newest = self.asked.as_ref().map(|(_, of)| of).or(self.answered.as_ref().map(|(of, _)| of));
         (newest != Some(&question)).then_some(question)
     }
@@ -91,11 +117,11 @@ impl Against {
         self.asked = Some((id, question));
     }
 
-    fn question(&self, revision: Revision, tolerance_percent: f64) -> Question {
+    fn question(&self, revision: Revision, axes: Axes, tolerance_percent: f64) -> Question {
         let Revision { document, opened, levels, shown, .. } = revision;
         let surface =
             if self.of_level { Judged::Level(document, levels, shown) } else { Judged::Opened(document, opened) };
-        Question { reference: self.taken, align: self.align, tolerance_percent, surface }
+        Question { reference: self.taken, align: self.align, tolerance_percent, surface, axes }
     }
 
     /// Hears an answer; one to an older question is passed over. Says whether it is one to this.
@@ -142,15 +168,16 @@ impl Against {
         self.stopped = None;
     }
 
-    /// Another surface is open: what was found is not of it. The file stays.
+    /// Another surface is open: nothing of this is of it.
     pub(in crate::app) fn leave_surface(&mut self) {
-        (self.is_open, self.asked, self.answered) = (false, None, None);
+        *self = Self { align: self.align, taken: self.taken, next: self.next, ..Self::default() };
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::io::ImportOptions;
     use crate::phantom::Sample;
 
     fn revision(document: u64, shown: u64) -> Revision {
@@ -159,7 +186,7 @@ mod tests {
 
     /// Asks for what is to be asked, under the number `id`; whether anything is.
     fn ask(against: &mut Against, revision: Revision, tolerance_percent: f64, id: u64) -> bool {
-        let question = against.next(revision, tolerance_percent);
+        let question = against.next(revision, Axes::Unknown, tolerance_percent);
         question.map(|question| against.ask(id, question)).is_some()
     }
 
@@ -205,16 +232,38 @@ mod tests {
         assert!(ask(&mut against, revision(1, 0), 1.0, 3), "a new engine is asked again");
         against.receive(failed(3));
         against.leave_surface();
-        assert!(!against.is_open && against.answer().is_none() && against.source.is_some());
+        assert!(!against.is_open && against.answer().is_none() && against.source.is_none());
     }
 
     #[test]
-    fn a_file_is_the_reference_where_one_was_asked_for_or_the_comparison_is_open() {
+    fn a_file_is_the_reference_where_one_was_asked_for_or_it_is_dropped_on_the_comparison() {
         let mut against = Against::default();
         assert!(!against.takes_file());
-        against.await_file(true);
+        against.expect(Next::Reference);
         assert!(against.takes_file() && !against.takes_file(), "one file");
+        // A dialog that was cancelled says nothing of what is dropped later.
+        against.expect(Next::Reference);
+        against.expect(Next::Dropped);
+        assert!(!against.takes_file());
         against.is_open = true;
-        assert!(against.takes_file() && against.takes_file());
+        assert!(against.takes_file() && against.takes_file(), "dropped on the comparison");
+        against.expect(Next::Surface);
+        assert!(!against.takes_file(), "*Open...* opens");
+    }
+
+    #[test]
+    fn axes_and_the_unit_of_the_file_are_part_of_the_question() {
+        let mut against = Against::default();
+        let options = ImportOptions::default();
+        against.take(Source::File { name: "a.stl".into(), bytes: Arc::default(), options });
+        let question = |against: &Against, axes| against.next(revision(1, 0), axes, 1.0);
+        let first = question(&against, Axes::Unknown).unwrap();
+        against.ask(1, first);
+        assert!(question(&against, Axes::Unknown).is_none() && question(&against, Axes::Lps).is_some());
+        against.read_in(Unit::Centimetre);
+        assert!(question(&against, Axes::Unknown).is_some());
+        assert!(
+            matches!(&against.source, Some(Source::File { options, .. }) if options.unit == Some(Unit::Centimetre))
+        );
     }
 }

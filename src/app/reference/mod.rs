@@ -18,6 +18,7 @@ use super::filling::Filling;
 use super::mode::{Acting, Beside, Layer, Mode, Now, Panel};
 use super::state::State;
 use super::views::Views;
+use against::Next;
 
 impl Panel for ReferenceView {
     fn id(&self) -> &'static str {
@@ -67,13 +68,15 @@ impl Panel for ReferenceView {
         let against = &mut state.against;
         match action {
             Action::Choose => {
-                against.await_file(true);
+                against.expect(Next::Reference);
                 acting.platform.choose_file(acting.ctx);
             }
             Action::TakeNext => {
-                against.await_file(true);
-                acting.then.push(Ask::OpenNext);
+                against.expect(Next::Reference);
+                state.notices.take_away();
+                acting.platform.open_next();
             }
+            Action::Unit(unit) => against.read_in(unit),
             Action::OfLevel(of_level) => against.of_level = of_level,
             Action::Align(align) => against.align = align,
             Action::Plain(is_plain) => against.is_plain = is_plain,

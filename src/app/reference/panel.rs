@@ -6,9 +6,11 @@ use super::action::Action;
 use super::against::Found;
 use crate::app::action::Action as Ask;
 use crate::app::assist::{heading, name};
+use crate::app::explain::explain;
 use crate::app::icon::{self, Icon};
 use crate::app::row::{number, remark, row, warning, wrapped};
 use crate::app::state::State;
+use crate::io::Unit;
 use crate::language::{decimal, grouped, signed, tell};
 use crate::pipeline::beside::{Align, BesideReport, Branch, Calibre, Farthest, Fit, Moved};
 use crate::say;
@@ -38,15 +40,23 @@ pub(super) fn head(ui: &mut Ui, state: &State, asked: &mut Vec<Ask>) {
         let named = against.source.as_ref().map_or_else(Default::default, |source| source.label());
         ui.add(egui::Label::new(RichText::new(named).strong()).truncate());
     });
+    if let Some(now) = against.answer().and_then(Result::ok).and_then(|found| found.two.unit) {
+        ui.horizontal_wrapped(|ui| {
+            explain(ui.label(say!("reference-unit")), &say!("reference-unit-help"));
+            for unit in Unit::ALL {
+                choice(ui, unit == now, unit.symbol(), "", &mut || ask(Action::Unit(unit)));
+            }
+        });
+    }
     ui.horizontal_wrapped(|ui| {
-        ui.label(say!("reference-surface")).on_hover_text(say!("reference-surface-help"));
+        explain(ui.label(say!("reference-surface")), &say!("reference-surface-help"));
         for of_level in [false, true] {
             let label = if of_level { say!("reference-level") } else { say!("reference-opened") };
             choice(ui, against.of_level == of_level, &label, "", &mut || ask(Action::OfLevel(of_level)));
         }
     });
     ui.horizontal_wrapped(|ui| {
-        ui.label(say!("reference-move")).on_hover_text(say!("reference-move-help"));
+        explain(ui.label(say!("reference-move")), &say!("reference-move-help"));
         for align in Align::ALL {
             let (label, help) = match align {
                 Align::Still => (say!("reference-still"), say!("reference-still-help")),
@@ -124,9 +134,16 @@ fn moved(ui: &mut Ui, found: &Found, asked: &mut Vec<Ask>) {
             remark(ui, &say!("reference-fit", mm = decimal(residual_mm, 3), before = decimal(before_mm, 3)));
         }
     }
+    if found.two.axes_differ {
+        warning(ui, &say!("reference-axes-differ"));
+        if ui.button(say!("reference-turn")).clicked() {
+            asked.push(Ask::Reference(Action::Align(Align::Axes)));
+        }
+    }
     if found.two.lie_apart {
         warning(ui, &say!("reference-apart", mm = decimal(report.deviation_mm.mean, 1)));
-        if ui.button(say!("reference-bring-together")).clicked() {
+        let is_fitted = report.moved.is_some_and(|moved| moved.fit.is_some());
+        if !is_fitted && ui.button(say!("reference-bring-together")).clicked() {
             asked.push(Ask::Reference(Action::Align(Align::Rigid)));
         }
     }
@@ -212,7 +229,7 @@ fn vessels(ui: &mut Ui, found: &Found, asked: &mut Vec<Ask>) {
     wrapped(ui, &told, |text| if changed > 0 { text.color(colour) } else { text });
     Grid::new("branches").num_columns(5).striped(true).spacing([10.0, 2.0]).show(ui, |ui| {
         let heads = [
-            (say!("reference-column-vessel"), String::new()),
+            (say!("reference-column-vessel"), say!("reference-column-vessel-help")),
             (say!("reference-column-reference"), say!("reference-column-radius-help")),
             (say!("reference-column-surface"), say!("reference-column-radius-help")),
             (say!("reference-column-change"), say!("reference-column-change-help")),
@@ -221,7 +238,7 @@ fn vessels(ui: &mut Ui, found: &Found, asked: &mut Vec<Ask>) {
         for (head, help) in heads {
             let head = ui.label(RichText::new(head).small().strong());
             if !help.is_empty() {
-                head.on_hover_text(help);
+                explain(head, &help);
             }
         }
         ui.end_row();

@@ -30,7 +30,6 @@ const ELSEWHERE: f32 = 0.01;
 struct Fitted {
     bounds: Bounds,
     before: Camera,
-    since: Camera,
 }
 
 /// The views: what of them stands in GPU memory.
@@ -53,14 +52,12 @@ impl ReferenceView {
         Self { device: device.cloned(), ..Self::default() }
     }
 
-    /// Lets go of GPU memory, for while the views are not shown; and of the camera, which looks from where it did before,
-    /// unless it was moved.
+    /// Lets go of GPU memory, for while the views are not shown; and of the camera, which looks from where it did before: the
+    /// two surfaces need not lie where the document does.
     pub(super) fn leave(&mut self, views: &mut Views) {
         (self.scene, self.is_refused) = (None, false);
-        if let Some(Fitted { before, since, .. }) = self.fitted.take()
-            && views.camera == since
-        {
-            views.camera = before;
+        if let Some(Fitted { before, .. }) = self.fitted.take() {
+            views.stand_at(before);
         }
     }
 
@@ -80,7 +77,7 @@ impl ReferenceView {
         let Some(Ok(found)) = state.against.answer() else {
             ui.painter().rect_filled(area, 0.0, ui.visuals().faint_bg_color);
             if state.against.is_busy() {
-                ui.place(Rect::from_center_size(area.center(), egui::vec2(24.0, 24.0)), egui::Spinner::new());
+                spinner(ui, area);
             }
             return;
         };
@@ -142,6 +139,13 @@ impl ReferenceView {
             }
             views.steer(ui, &picture, 1, None, state.settings.keep);
         }
+        if state.against.is_busy() || state.against.stopped().is_some() {
+            // It is of what was asked before.
+            ui.painter().rect_filled(area, 0.0, ui.visuals().faint_bg_color.gamma_multiply(0.7));
+        }
+        if state.against.is_busy() {
+            spinner(ui, area);
+        }
     }
 
     /// Brings both into view where they are first shown, or elsewhere than before, or where that is asked for.
@@ -157,13 +161,17 @@ impl ReferenceView {
             return;
         }
         let before = self.fitted.map_or(views.camera, |fitted| fitted.before);
+        // A ring of the document's would be at another place of these.
+        if self.fitted.is_none() {
+            views.stand_at(before);
+        }
         match wanted {
             Some(Ask::View(view)) => stand(&mut views.camera, view, axes),
             Some(_) => {}
             None => stand(&mut views.camera, first_view(bounds.size()), axes),
         }
         views.camera.fit(&bounds, rect.width() / rect.height().max(1.0));
-        self.fitted = Some(Fitted { bounds, before, since: views.camera });
+        self.fitted = Some(Fitted { bounds, before });
     }
 
     /// Draws the reference left of the line and the surface right of it.
@@ -182,6 +190,11 @@ impl ReferenceView {
         }
         Ok(())
     }
+}
+
+/// Something is on its way.
+fn spinner(ui: &mut Ui, area: Rect) {
+    ui.place(Rect::from_center_size(area.center(), egui::vec2(24.0, 24.0)), egui::Spinner::new());
 }
 
 /// What the colours say.

@@ -19,7 +19,8 @@ impl State {
     pub fn compare_with(&mut self, name: String, bytes: Vec<u8>) {
         self.leave_modes();
         self.notices.clear();
-        self.against.take(Source::File { name, bytes: Arc::new(bytes), options: ImportOptions::default() });
+        let options = ImportOptions { unit: self.next_unit.take() };
+        self.against.take(Source::File { name, bytes: Arc::new(bytes), options });
     }
 
     /// What is to be asked about the surface and the other file, and was not yet. Where the level is to be compared, there
@@ -27,7 +28,8 @@ impl State {
     pub(super) fn next_question(&self) -> Option<Question> {
         let document = self.document.as_ref()?;
         let is_there = document.shown.is_some() || !self.against.of_level;
-        self.against.next(document.revision, self.settings.tolerance_percent).filter(|_| is_there)
+        let (revision, axes) = (document.revision, document.import.axes);
+        self.against.next(revision, axes, self.settings.tolerance_percent).filter(|_| is_there)
     }
 
     /// Asks the engine for what is to be known of the two.
@@ -40,9 +42,14 @@ impl State {
             return;
         };
         let name = document.title();
+        let is_mended = !self.settings.mending.is_off();
         let of = Judged {
-            name: if of_level { say!("reference-level-of", name = name) } else { name.into_owned() },
-            digest: document.digest.filter(|_| !of_level),
+            name: match (of_level, is_mended) {
+                (true, _) => say!("reference-level-of", name = name),
+                (false, true) => say!("reference-mended", name = name),
+                (false, false) => name.into_owned(),
+            },
+            digest: document.digest.filter(|_| !of_level && !is_mended),
             frame: FileFrame::from(&document.import),
         };
         self.number += 1;

@@ -11,6 +11,7 @@ use crate::app::document::Document;
 use crate::app::filling::Filling;
 use crate::app::mode::{Acting, Beside, Entry, Group, Layer, Mode, Now, Panel};
 use crate::app::platform::Platform;
+use crate::app::reference::against::Next;
 use crate::app::state::State;
 use crate::app::views::Views;
 use crate::language::Key;
@@ -62,7 +63,10 @@ impl TrialPanel {
 
     fn act_on(&mut self, action: OfTrial, acting: &mut Acting<'_>) {
         match action {
-            OfTrial::OpenLog => acting.platform.choose_file(acting.ctx),
+            OfTrial::OpenLog => {
+                acting.state.against.expect(Next::Surface);
+                acting.platform.choose_file(acting.ctx);
+            }
             OfTrial::Device(DeviceAsk::SaveLatency) => {
                 if let Some(table) = self.trial.latency_table() {
                     acting.platform.offer_file("lumen-haptic-latency.csv", table.into_bytes(), acting.ctx);

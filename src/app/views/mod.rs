@@ -214,6 +214,11 @@ impl Views {
         self.fitted == Some(self.camera) && self.flight.is_none()
     }
 
+    /// Looks from elsewhere at once, and marks nothing.
+    pub(super) fn stand_at(&mut self, camera: Camera) {
+        (self.camera, self.flight, self.spot) = (camera, None, None);
+    }
+
     /// Goes to a place, and near enough that `height_mm` are seen there.
     pub(super) fn go_to(&mut self, spot: Spot, height_mm: f32) {
         self.fly(spot.at, height_mm);

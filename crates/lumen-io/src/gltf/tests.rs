@@ -316,10 +316,11 @@ fn coarser_levels_stand_beside_the_finest_which_others_read() {
     assert_eq!((&raw.positions, &raw.triangles), (&meshes[0].positions, &meshes[0].triangles));
     let length = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
     let json: serde_json::Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
-    // As the extension has it: the finest names the others, and there is a number for each and for itself, smaller and smaller.
+    // As the extension has it: the finest names the others, and each has the part of the screen from which on it is shown. The
+    // last is shown however small: below its number nothing is.
     assert_eq!(json["extensionsUsed"], serde_json::json!(["MSFT_lod"]));
     assert_eq!(json["nodes"][0]["extensions"]["MSFT_lod"]["ids"], serde_json::json!([1, 2]));
-    assert_eq!(json["nodes"][0]["extras"]["MSFT_screencoverage"], serde_json::json!([0.5, 0.25, 0.125]));
+    assert_eq!(json["nodes"][0]["extras"]["MSFT_screencoverage"], serde_json::json!([0.5, 0.25, 0]));
     assert_eq!(json["scenes"][0]["nodes"], serde_json::json!([0]));
     for (i, mesh) in meshes.iter().enumerate() {
         assert_eq!((&json["nodes"][i]["mesh"], &json["nodes"][i]["scale"][0]), (&i.into(), &0.001.into()));

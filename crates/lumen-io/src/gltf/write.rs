@@ -64,8 +64,9 @@ fn nodes(levels: usize) -> (String, &'static str) {
     }
     let ids: Vec<String> = (1..levels).map(|level| level.to_string()).collect();
     // On half of the area half of the triangles are as fine.
-    let halves = std::iter::successors(Some(0.5_f64), |part| Some(part / 2.0));
-    let coverage: Vec<String> = halves.take(levels).map(|part| part.to_string()).collect();
+    let halves = std::iter::successors(Some(0.5_f64), |part| Some(part / 2.0)).take(levels - 1);
+    // Below the last nothing would be shown.
+    let coverage: Vec<String> = halves.chain([0.0]).map(|part| part.to_string()).collect();
     let mut nodes = format!(
         "{{\"name\":\"surface\",\"mesh\":0,{scale},\"extensions\":{{\"MSFT_lod\":{{\"ids\":[{}]}}}},\
          \"extras\":{{\"MSFT_screencoverage\":[{}]}}}}",

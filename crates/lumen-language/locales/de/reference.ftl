@@ -4,6 +4,8 @@
 
 reference-open = Mit Datei vergleichen...
 reference-open-help = Eine andere Datei als Referenz: wie weit die Oberfläche von ihr entfernt ist, und das Kaliber jedes Gefäßes auf beiden
+reference-back = Zurück zu { $name }
+reference-back-help = Der Vergleich mit dieser Datei
 reference-take-next = Damit vergleichen
 reference-take-next-help = Nimmt die nächste der Dateien als Referenz für diese
 
@@ -15,12 +17,15 @@ reference-reference = Referenz
 reference-reference-help = Womit die Oberfläche verglichen wird; eine andere Datei kann hier abgelegt werden
 reference-other = Andere...
 reference-other-help = Mit einer anderen Datei vergleichen
+reference-unit = Einheit:
+reference-unit-help = Der Zahlen in der Datei der Referenz
 reference-surface = Oberfläche:
 reference-surface-help = Was beurteilt wird
 reference-opened = wie geöffnet
 reference-level = reduziert
 # The name of the surface in the report.
 reference-level-of = { $name }, reduziert
+reference-mended = { $name }, repariert
 reference-move = Bewegen:
 reference-move-help = Ob die Oberfläche zuerst auf die Referenz bewegt wird
 reference-still = nicht
@@ -38,9 +43,11 @@ reference-no-level = Es gibt noch keine reduzierte Oberfläche.
 reference-again = Noch einmal vergleichen
 reference-failed = Sie können nicht verglichen werden: { $why }.
 reference-moved = Im Mittel um { $mm } mm bewegt, um { $degrees }° gedreht.
-reference-fit = Was zwischen den beiden bleibt: { $mm } mm, vorher { $before } mm.
+reference-fit = Nach dem Einpassen sind die nächsten vier Fünftel der Oberfläche { $mm } mm entfernt (RMS), vorher { $before } mm.
 reference-apart = Sie liegen im Mittel { $mm } mm auseinander.
 reference-bring-together = Zusammenbringen
+reference-axes-differ = Eine ist in LPS, die andere in RAS: links und rechts liegen nicht auf derselben Seite.
+reference-turn = Drehen
 # Of the reference's file; $note is a sentence.
 reference-note = Referenz: { $note }
 reference-column-reference = Referenz
@@ -67,6 +74,7 @@ reference-kept = Wo gemessen, auf { $tolerance } % erhalten.
 reference-not-measured = Kein Gefäß kann gemessen werden.
 reference-measured = Gemessen: { $percent } % der Länge.
 reference-column-vessel = Gefäß
+reference-column-vessel-help = Wie auf der Referenz nummeriert
 reference-column-radius-help = Mittlerer Radius in mm, des Kreises gleicher Fläche
 reference-column-change = Änderung
 reference-column-change-help = Die größte Änderung des Radius gegenüber der Referenz
@@ -80,7 +88,7 @@ reference-save-stations-help = Fläche und Radius auf beiden an jeder Stelle jed
 
 reference-distance-title = Abstand von der anderen
 reference-legend = Abstand
-reference-legend-sides = außen rot, innen blau
+reference-legend-sides = Oberfläche außen rot, innen blau
 
 ## Warum zwei Oberflächen nicht verglichen werden können: nach einem Doppelpunkt, ein Punkt folgt
 

@@ -297,7 +297,7 @@ panel-safe-refused = There is no such rate here: { $why }.
 panel-kept-to = Kept to
 # What the rate rests on: $coverage is "52 % of the length, 4 of 17 vessels".
 panel-safe-rests = Measured at { $percent } % over { $coverage }; the verdict goes by the level that is shown.
-panel-safe-rests-at = At { $percent } %: { $coverage }
+panel-safe-rests-at = Reduced by { $percent } %: over { $coverage }
 panel-safe-changed = Branches that smoothing itself changes by more do not count: { $count }.
 panel-safe-go-help = Sets the reduction to the mark under the slider
 panel-wanted = Triangles wanted

@@ -4,6 +4,8 @@
 
 reference-open = Compare with a file...
 reference-open-help = Another file as the reference: how far the surface is from it, and each vessel's calibre on both
+reference-back = Back to { $name }
+reference-back-help = The comparison with this file
 reference-take-next = Compare with it
 reference-take-next-help = Takes the next of the files as the reference for this one
 
@@ -15,12 +17,15 @@ reference-reference = Reference
 reference-reference-help = What the surface is compared with; another file can be dropped here
 reference-other = Other...
 reference-other-help = Compare with another file
+reference-unit = Unit:
+reference-unit-help = Of the numbers in the reference's file
 reference-surface = Surface:
 reference-surface-help = What is judged
 reference-opened = as opened
 reference-level = reduced
 # The name of the surface in the report.
 reference-level-of = { $name }, reduced
+reference-mended = { $name }, mended
 reference-move = Move it:
 reference-move-help = Whether the surface is moved onto the reference first
 reference-still = not
@@ -38,9 +43,11 @@ reference-no-level = There is no reduced surface yet.
 reference-again = Compare again
 reference-failed = They cannot be compared: { $why }.
 reference-moved = Moved by { $mm } mm on the mean, turned by { $degrees }°.
-reference-fit = What is left between the two: { $mm } mm, { $before } mm before.
+reference-fit = After the fit the nearest four fifths of the surface are { $mm } mm away (RMS), { $before } mm before.
 reference-apart = They lie { $mm } mm apart on the mean.
 reference-bring-together = Bring them together
+reference-axes-differ = One is in LPS, the other in RAS: left and right are not on the same side.
+reference-turn = Turn it
 # Of the reference's file; $note is a sentence.
 reference-note = Reference: { $note }
 reference-column-reference = Reference
@@ -67,6 +74,7 @@ reference-kept = Kept within { $tolerance } % where measured.
 reference-not-measured = No vessel can be measured.
 reference-measured = Measured: { $percent } % of the length.
 reference-column-vessel = Vessel
+reference-column-vessel-help = As numbered on the reference
 reference-column-radius-help = Mean radius in mm, of the circle of the same area
 reference-column-change = Change
 reference-column-change-help = The largest change of its radius from the reference
@@ -80,4 +88,4 @@ reference-save-stations-help = Area and radius on both at each place of each ves
 
 reference-distance-title = Distance from the other
 reference-legend = Distance
-reference-legend-sides = outside red, inside blue
+reference-legend-sides = surface outside red, inside blue

@@ -27,8 +27,8 @@ verdict-show-vessels = Show vessels
 verdict-show-vessels-help = What became of each, and where (V)
 # Where too little is measured: opens the vessels with what is not measured.
 verdict-show-unmeasured = Show unmeasured
-verdict-show-unmeasured-help = Opens the vessels and goes to what is not measured; the surface shows it in grey. Green says that { $percent } % of the length away from forks is measured, and half of the vessels.
-verdict-enough = Safe is said where { $percent } % of the length away from forks is measured, and half of the vessels.
+verdict-show-unmeasured-help = Opens the vessels and goes to what is not measured; the surface shows it in grey. A green verdict needs at least { $percent } % of the length away from forks measured, and half of the vessels.
+verdict-enough = Safe is said where at least { $percent } % of the length away from forks is measured, and half of the vessels.
 verdict-remedy-help = Would help; can be undone
 # Goes to the place of a finding.
 verdict-show-place = Show me

@@ -4,6 +4,8 @@
 
 reference-open = Comparer à un fichier...
 reference-open-help = Un autre fichier comme référence : la distance de la surface, et le calibre de chaque vaisseau sur les deux
+reference-back = Retour à { $name }
+reference-back-help = La comparaison à ce fichier
 reference-take-next = Comparer à celui-ci
 reference-take-next-help = Prend le fichier suivant comme référence pour celui-ci
 
@@ -15,12 +17,15 @@ reference-reference = Référence
 reference-reference-help = Ce à quoi la surface est comparée ; un autre fichier peut être déposé ici
 reference-other = Autre...
 reference-other-help = Comparer à un autre fichier
+reference-unit = Unité :
+reference-unit-help = Des nombres dans le fichier de la référence
 reference-surface = Surface :
 reference-surface-help = Ce qui est jugé
 reference-opened = comme ouverte
 reference-level = réduite
 # The name of the surface in the report.
 reference-level-of = { $name }, réduite
+reference-mended = { $name }, réparée
 reference-move = La déplacer :
 reference-move-help = Si la surface est d'abord amenée sur la référence
 reference-still = non
@@ -38,9 +43,11 @@ reference-no-level = Il n'y a pas encore de surface réduite.
 reference-again = Comparer à nouveau
 reference-failed = Elles ne peuvent pas être comparées : { $why }.
 reference-moved = Déplacée de { $mm } mm en moyenne, tournée de { $degrees }°.
-reference-fit = Ce qui reste entre les deux : { $mm } mm, { $before } mm avant.
+reference-fit = Après l'ajustement, les quatre cinquièmes les plus proches de la surface sont à { $mm } mm (RMS), { $before } mm avant.
 reference-apart = Elles sont à { $mm } mm l'une de l'autre en moyenne.
 reference-bring-together = Les rapprocher
+reference-axes-differ = L'une est en LPS, l'autre en RAS : la gauche et la droite ne sont pas du même côté.
+reference-turn = La tourner
 # Of the reference's file; $note is a sentence.
 reference-note = Référence : { $note }
 reference-column-reference = Référence
@@ -67,6 +74,7 @@ reference-kept = Conservé à { $tolerance } % près là où c'est mesuré.
 reference-not-measured = Aucun vaisseau ne peut être mesuré.
 reference-measured = Mesuré : { $percent } % de la longueur.
 reference-column-vessel = Vaisseau
+reference-column-vessel-help = Numéroté comme sur la référence
 reference-column-radius-help = Rayon moyen en mm, du cercle de même aire
 reference-column-change = Écart
 reference-column-change-help = Le plus grand changement du rayon par rapport à la référence
@@ -80,7 +88,7 @@ reference-save-stations-help = Aire et rayon sur les deux en chaque point de cha
 
 reference-distance-title = Distance à l'autre
 reference-legend = Distance
-reference-legend-sides = dehors rouge, dedans bleu
+reference-legend-sides = surface dehors rouge, dedans bleu
 
 ## Pourquoi deux surfaces ne peuvent pas être comparées : dit après deux points, un point suit
 

@@ -119,8 +119,8 @@ pub async fn placed(
     if how == Align::Rigid {
         let mut standing = mesh.clone();
         standing.positions.iter_mut().for_each(|p| *p = motion.of(*p));
-        let index = SurfaceIndex::new(&onto.positions, &onto.triangles);
-        let found = align(&standing, onto, &index, yielder).await.ok_or(BesideError::NoArea)?;
+        let index = SurfaceIndex::build(&onto.positions, &onto.triangles, &yielder.part(0.0..0.2)).await;
+        let found = align(&standing, onto, &index, &yielder.part(0.2..1.0)).await.ok_or(BesideError::NoArea)?;
         let Aligned { motion: further, before_mm, residual_mm } = found;
         motion = motion.then(further);
         fit = Some(Fit { before_mm, residual_mm });

@@ -231,7 +231,7 @@ fn the_app_opens_with_the_sample_of_the_paper_smoothed_and_reduced() {
 
 /// A file that is dropped, of these bytes.
 #[derive(Debug)]
-struct Dropped(PathBuf, Vec<u8>);
+pub(crate) struct Dropped(pub(crate) PathBuf, pub(crate) Vec<u8>);
 
 impl egui::DroppedFile for Dropped {
     fn path(&self) -> &Path {

@@ -2,7 +2,9 @@
 
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::sync::Arc;
 
+use crate::opening::Dropped;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -109,10 +111,61 @@ fn a_cancel_stops_it_until_it_is_wished_again_and_another_surface_ends_it() {
     press(&mut harness, Role::Button, "Compare again");
     settle(&mut harness);
     assert!(against(&harness).answer().unwrap().unwrap().two.report.surface.file.ends_with("reduced"));
-    press(&mut harness, Role::Button, "Close");
+    // Whoever presses *Open...* opens, also here.
+    press(&mut harness, Role::Button, "Open...");
     open(&mut harness, &memory, "other.obj", tube(2.0, 40.0, 0.4));
-    assert!(!against(&harness).is_open && against(&harness).answer().is_none());
+    assert!(!against(&harness).is_open && against(&harness).answer().is_none() && against(&harness).source.is_none());
     assert_eq!(harness.state().state().document.as_ref().unwrap().title(), "other.obj");
+}
+
+#[test]
+fn a_dialog_that_was_cancelled_makes_no_reference_of_what_is_dropped_later() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    open(&mut harness, &memory, "first.obj", tube(3.0, 40.0, 0.4));
+    press(&mut harness, Role::Button, "Compare");
+    press(&mut harness, Role::Button, "Compare with a file...");
+    let dropped = Dropped("second.obj".into(), tube(3.3, 40.0, 0.4));
+    harness.input_mut().dropped_files.push(Arc::new(dropped));
+    harness.run_steps(20);
+    settle(&mut harness);
+    assert!(!against(&harness).is_open);
+    assert_eq!(harness.state().state().document.as_ref().unwrap().title(), "second.obj");
+}
+
+#[test]
+fn the_camera_and_the_ring_of_the_two_stay_with_them_and_there_is_a_way_back() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    open(&mut harness, &memory, "narrow.obj", tube(3.0, 40.0, 0.4));
+    let before = *harness.state().camera();
+    press(&mut harness, Role::Button, "Compare");
+    press(&mut harness, Role::Button, "Compare with a file...");
+    // A metre away.
+    let far = String::from_utf8(tube(3.3, 40.0, 0.5)).unwrap();
+    let far: String = far.lines().map(|line| moved(line, 1000.0)).collect();
+    open(&mut harness, &memory, "far.obj", far.into_bytes());
+    assert!(says(&harness, "on the mean."), "they lie apart");
+    press(&mut harness, Role::Button, "Bring them together");
+    settle(&mut harness);
+    let report = &against(&harness).answer().unwrap().unwrap().two.report;
+    assert!((report.deviation_mm.mean - 0.3).abs() < 0.02, "{:?}", report.deviation_mm);
+    press(&mut harness, Role::Button, "Go there: Farthest on surface");
+    assert!(harness.state().camera().target.x > 900.0);
+    harness.key_press(egui::Key::Escape);
+    harness.run_steps(4);
+    assert_eq!(*harness.state().camera(), before);
+    press(&mut harness, Role::Button, "Compare");
+    press(&mut harness, Role::Button, "Back to far.obj");
+    assert!(against(&harness).is_open && !against(&harness).is_busy() && against(&harness).answer().is_some());
+}
+
+/// A line of an OBJ file, its vertex moved along x.
+fn moved(line: &str, by: f64) -> String {
+    match line.strip_prefix("v ").and_then(|rest| rest.split_once(' ')) {
+        Some((x, rest)) => format!("v {} {rest}\n", x.parse::<f64>().unwrap() + by),
+        None => format!("{line}\n"),
+    }
 }
 
 #[test]
