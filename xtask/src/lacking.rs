@@ -95,7 +95,7 @@ impl Machine {
             let skipped = match lack.what {
                 What::Vulkan => "the tests that draw, and those of the window",
                 What::Display => "the tests of the desktop window",
-                What::Chromium => "the tests in the browser",
+                What::Chromium => "the tests in the browser, and those of the npm package",
                 What::Python => "the tests of the Python package",
             };
             format!("Skipped: {skipped}. {}", lack.why)
@@ -111,10 +111,16 @@ impl Machine {
             count += folders.map(|folder| tests_in(&folder, "rs", "#[test]")).sum::<u64>();
         }
         if self.lacks(What::Python) {
-            count += tests_in(&root().join("python/tests"), "py", "def test_");
+            count += ["python/tests", "python/examples"]
+                .map(|folder| tests_in(&root().join(folder), "py", "def test_"))
+                .iter()
+                .sum::<u64>();
         }
         if !self.browses() {
-            count += tests_in(&root().join("tests/browser"), "mjs", "test(");
+            count += ["tests/browser", "tests/npm"]
+                .map(|folder| tests_in(&root().join(folder), "mjs", "test("))
+                .iter()
+                .sum::<u64>();
         }
         count
     }
@@ -174,7 +180,7 @@ mod tests {
             machine.told(),
             [
                 "Skipped: the tests that draw, and those of the window. A Vulkan driver is missing: install it",
-                "Skipped: the tests in the browser. Chromium is missing: install it",
+                "Skipped: the tests in the browser, and those of the npm package. Chromium is missing: install it",
             ]
         );
         assert!(!machine.draws() && !machine.browses() && machine.left_out() > 100, "{}", machine.left_out());

@@ -244,7 +244,8 @@ impl Built {
     fn new(extent: Extent) -> Result<Self> {
         let has_package = extent != Extent::Quick;
         let dist = build::build_beside(if has_package { &[npm::PROGRAM] } else { &[] })?;
-        let package = has_package.then(|| npm::folder(npm::Finish::Quick)).transpose()?;
+        let finish = if extent == Extent::Long { npm::Finish::Small } else { npm::Finish::Quick };
+        let package = has_package.then(|| npm::folder(finish)).transpose()?;
         let libraries = || tools::npm_packages("tests/npm", "npm-examples", "Install three.js and vtk.js from npm");
         let examples = (extent == Extent::Long).then(libraries).transpose()?;
         Ok(Self { dist, package, examples })

@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use anyhow::{Context as _, Result, bail};
+use anyhow::{Context as _, Result, anyhow, bail};
 
 use crate::step::{cargo, on_path, output, root, run, step, target};
 
@@ -154,7 +154,11 @@ fn python(folder: &Path, asked: &str, what: &str) -> Result<PathBuf> {
     }
     step(what, || {
         run(Command::new(&python).args(["-m", "venv"]).arg(&environment))?;
-        run(pip(&bin).arg("--requirement").arg(&asked))
+        let list = asked.display();
+        run(pip(&bin).arg("--requirement").arg(&asked)).map_err(|why| {
+            // Without a registry of Python's all else can be tried.
+            anyhow!(Missing(format!("pip cannot install what {list} asks for ({why}): give it a way to a registry")))
+        })
     })?;
     std::fs::copy(&asked, &done)?;
     Ok(bin)
