@@ -270,7 +270,7 @@ lesson-decimation-text =
     settings: reduction=99.9
     view: anterior
     show: flat
-    look: the open ends: every one is still there, with three edges or more; and at the place that is pinched.
+    look: the rims: every open end is still there, with three edges or more; and at the place that is pinched.
 
 lesson-wire = What a wire feels
 lesson-wire-text =
