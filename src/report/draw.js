@@ -4,9 +4,10 @@
 
 /**
  * Draws levels: `place` has three numbers a vertex in mm, `corners` three a triangle, and `normals`, where they are there, three
- * a vertex. `isTall()` says whether one picture stands above the other. Colours are the style's --ground and --ink. Null where there is no WebGL2.
+ * a vertex. `isTall()` says whether one picture stands above the other, `takesWheel(event)` whether a turn of the wheel zooms or is
+ * the page's. Colours are the style's --ground and --ink. Null where there is no WebGL2. After `end()` the canvas is of no use.
  */
-function surfaceView(canvas, isTall) {
+function surfaceView(canvas, isTall, takesWheel = () => true) {
   const gl = canvas.getContext("webgl2", { antialias: true });
   if (!gl) return null;
 
@@ -191,7 +192,7 @@ function surfaceView(canvas, isTall) {
 
   function draw() {
     asked = false;
-    if (!shown || gl.isContextLost()) return;
+    if (!shown || !canvas.isConnected || gl.isContextLost()) return;
     const [wide, high] = [canvas.clientWidth, canvas.clientHeight].map((side) => Math.max(1, Math.round(side * devicePixelRatio)));
     if (canvas.width !== wide || canvas.height !== high) [canvas.width, canvas.height] = [wide, high];
     const [ground, line] = [colour("--ground"), colour("--ink")];
@@ -250,16 +251,18 @@ function surfaceView(canvas, isTall) {
     ask();
   }
 
+  const ended = new AbortController();
+  const on = (kind, act, options) => canvas.addEventListener(kind, act, { ...options, signal: ended.signal });
   const held = new Map();
   const between = () => {
     const [a, b] = [...held.values()];
     return { distance: Math.hypot(a.x - b.x, a.y - b.y), x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
   };
-  canvas.addEventListener("pointerdown", (event) => {
+  on("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
     held.set(event.pointerId, { x: event.clientX, y: event.clientY });
   });
-  canvas.addEventListener("pointermove", (event) => {
+  on("pointermove", (event) => {
     const last = held.get(event.pointerId);
     if (!last) return;
     const before = held.size === 2 ? between() : null;
@@ -274,37 +277,37 @@ function surfaceView(canvas, isTall) {
       else turn(x * TURN, y * TURN);
     }
   });
-  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => held.delete(event.pointerId));
-  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-  canvas.addEventListener(
+  for (const end of ["pointerup", "pointercancel"]) on(end, (event) => held.delete(event.pointerId));
+  on("contextmenu", (event) => event.preventDefault());
+  on(
     "wheel",
     (event) => {
+      if (!takesWheel(event)) return;
       event.preventDefault();
       zoom(Math.exp(Math.sign(event.deltaY) * Math.min(Math.abs(event.deltaY), 100) * 0.0015));
     },
     { passive: false },
   );
-  canvas.addEventListener("dblclick", home);
+  on("dblclick", home);
+  const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+  const arrow = ([x, y], shifts) => (shifts ? shift(20 * x, 20 * y) : turn(0.1 * x, 0.1 * y));
   const KEYS = {
-    ArrowLeft: () => turn(-0.1, 0),
-    ArrowRight: () => turn(0.1, 0),
-    ArrowUp: () => turn(0, -0.1),
-    ArrowDown: () => turn(0, 0.1),
     "+": () => zoom(0.9),
     "=": () => zoom(0.9),
     "-": () => zoom(1 / 0.9),
     0: home,
   };
-  canvas.addEventListener("keydown", (event) => {
-    const act = !event.ctrlKey && !event.metaKey && !event.altKey && KEYS[event.key];
-    if (!act) return;
+  on("keydown", (event) => {
+    const { key } = event;
+    if (event.ctrlKey || event.metaKey || event.altKey || !(key in ARROWS || key in KEYS)) return;
     event.preventDefault();
-    act();
+    if (key in ARROWS) arrow(ARROWS[key], event.shiftKey);
+    else KEYS[key]();
   });
-  canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
-  canvas.addEventListener("webglcontextrestored", () => (made(), ask()));
+  on("webglcontextlost", (event) => event.preventDefault());
+  on("webglcontextrestored", () => (made(), ask()));
   const dark = matchMedia("(prefers-color-scheme:dark)");
-  dark.addEventListener("change", ask);
+  dark.addEventListener("change", ask, { signal: ended.signal });
   const sizes = new ResizeObserver(ask);
   sizes.observe(canvas);
 
@@ -318,8 +321,10 @@ function surfaceView(canvas, isTall) {
       ask();
     },
     end() {
-      dark.removeEventListener("change", ask);
+      shown = null;
+      ended.abort();
       sizes.disconnect();
+      gl.getExtension("WEBGL_lose_context")?.loseContext();
     },
   };
 }

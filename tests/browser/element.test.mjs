@@ -97,8 +97,20 @@ test("what cannot be shown is told in a sentence, and the next address is shown"
   const set = (name, value) => element.evaluate((vessel, [name, value]) => vessel.setAttribute(name, value), [name, value]);
   await set("src", "not-there.stl");
   assert.match(await failure(), /^The surface cannot be loaded: the server answers 404\.$/);
+  // Nothing of the old surface stays beside it.
+  const left = () => element.evaluate(({ result, shadowRoot }) => [result, shadowRoot.querySelector(".stage").hidden, shadowRoot.querySelector(".counts").textContent]);
+  assert.deepEqual(await left(), [null, true, ""]);
+  await element.evaluate((vessel) => vessel.removeAttribute("src"));
+  await element.locator(".failure").waitFor({ state: "hidden" });
+  assert.deepEqual(await left(), [null, true, ""]);
   await set("src", "broken.stl");
   await eventually(() => text(".failure"), (words) => words.includes("cut short"));
+  await page.route("**/tube-100%.stl", (route) => route.fulfill({ path: join(folder, "tube.stl") }));
+  await set("src", "tube-100%.stl");
+  await judged();
+  await set("src", "http://%");
+  await eventually(() => text(".failure"), (words) => words.startsWith("The surface cannot be loaded"));
+  assert.deepEqual(await left(), [null, true, ""]);
   await set("src", "tube.stl");
   await judged();
   await set("unit", "feet");
@@ -119,4 +131,55 @@ test("what cannot be shown is told in a sentence, and the next address is shown"
   await set("reduction", "95");
   await eventually(count, (count) => near(count, TRIANGLES / 20));
   await judged();
+});
+
+test("one that is removed gives its graphics back, and is drawn anew where it is put again", async (t) => {
+  const { page, wrong, element, judged } = await lecture(t);
+  await judged();
+  const lost = await page.evaluate(async () => {
+    const vessel = document.querySelector("lumen-vessel");
+    const context = vessel.shadowRoot.querySelector("canvas").getContext("webgl2");
+    vessel.remove();
+    // What was asked for before it was removed.
+    await new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next)));
+    globalThis.removed = vessel;
+    return context.isContextLost();
+  });
+  assert(lost);
+  await page.evaluate(() => document.body.append(globalThis.removed));
+  await judged();
+  const canvas = element.locator("canvas");
+  const seen = () => page.evaluate(() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next)))).then(() => picture(page, canvas));
+  await canvas.focus();
+  const first = await seen();
+  // Turned once, and back.
+  await page.keyboard.press("ArrowLeft");
+  const turned = await seen();
+  assert(Buffer.compare(Buffer.from(first.data), Buffer.from(turned.data)) !== 0, "it is drawn and turned");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(Buffer.compare(Buffer.from(first.data), Buffer.from((await seen()).data)), 0);
+  // Moved, it goes on as it is.
+  await page.evaluate(() => document.querySelector("h1").before(globalThis.removed));
+  assert.equal(await element.evaluate((vessel) => vessel.shadowRoot.querySelector("canvas").getContext("webgl2").isContextLost()), false);
+  assert.deepEqual(wrong, []);
+});
+
+test("the page scrolls over a surface that has no focus, and a count of triangles takes the place of the rate", async (t) => {
+  const { page, element, count, judged } = await lecture(t);
+  await judged();
+  const canvas = element.locator("canvas");
+  const scrolls = (ctrlKey) => canvas.evaluate((canvas, ctrlKey) => canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: 100, ctrlKey, cancelable: true })), ctrlKey);
+  const touch = () => canvas.evaluate((canvas) => getComputedStyle(canvas).touchAction);
+  assert.deepEqual([await scrolls(false), await scrolls(true), await touch()], [true, false, "pan-y"]);
+  await canvas.click();
+  assert.deepEqual([await scrolls(false), await touch()], [false, "none"]);
+
+  await element.evaluate((vessel) => {
+    vessel.removeAttribute("reduction");
+    vessel.setAttribute("triangles", "500");
+  });
+  await eventually(count, (count) => near(count, 500), { what: "the count" });
+  assert(await element.getByLabel("Reduction").isDisabled());
+  await element.evaluate((vessel) => vessel.removeAttribute("triangles"));
+  await eventually(() => element.getByLabel("Reduction").isEnabled(), Boolean);
 });

@@ -71,6 +71,10 @@ test("TypeScript knows the types, and refuses what is none", { skip }, async () 
     const radius: number | undefined = made.certificate?.branches[0].reduced.radius_mm?.mean;
     const corners: Uint32Array = (await surface.level(90)).indices;
     const vessel = document.querySelector("lumen-vessel")!.result?.report.output.triangles;
+    await surface.optimise({ keep: "all", reduction: "auto" });
+    await surface.optimise({ keep: 0, triangles: 500 });
+    // @ts-expect-error
+    await surface.optimise({ keep: "most" });
     // @ts-expect-error
     await surface.optimise({ "pas-band": 0.01 });
     // @ts-expect-error

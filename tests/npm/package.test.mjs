@@ -101,7 +101,34 @@ test("what cannot be done is refused by an identifier, with its values", async (
   await assert.rejects(surface.optimise({ reduction: "much" }), refused("app-settings-field"));
   await surface.optimise({ ...PAPER, iterations: 0 }, { measures: false });
   await assert.rejects(surface.save("jpg"), refused("errors-format-unknown"));
-  await assert.rejects(surface.level(100), refused("errors-reduction"));
+  await assert.rejects(surface.optimise({ reduction: 100 }), refused("errors-reduction"));
+});
+
+test("arguments are checked before anything is asked of the Worker", async (t) => {
+  await assert.rejects(open(tube(), 7), TypeError);
+  const surface = await opened(t);
+  await assert.rejects(surface.optimise(PAPER, { measures: "all" }), TypeError);
+  for (const reduction of ["90", null]) await assert.rejects(surface.level(reduction), TypeError);
+  for (const reduction of [NaN, -1, 100]) await assert.rejects(surface.save("stl", reduction), RangeError);
+  await assert.rejects(surface.save(), TypeError);
+  const circle = {};
+  circle.keep = circle;
+  for (const settings of [{ iterations: () => 1 }, circle]) await assert.rejects(surface.optimise(settings), (why) => !(why instanceof LumenError));
+  const stop = new Error("enough");
+  const throwing = [() => { throw stop; }, async () => { throw stop; }];
+  for (const progress of throwing) await assert.rejects(surface.optimise(PAPER, { progress }), stop);
+  await surface.optimise({ ...PAPER, iterations: 0 }, { measures: false });
+});
+
+test("settings have the values of the command line, and the target is said once", async (t) => {
+  const surface = await opened(t);
+  for (const [keep, read] of [["all", "All"], ["All", "All"], ["largest", "Largest"], [0, { Component: 0 }], [{ Component: 0 }, { Component: 0 }]]) {
+    const { report } = await surface.optimise({ ...PAPER, iterations: 0, keep }, { measures: false });
+    assert.deepEqual(report.settings.keep, read);
+  }
+  const twice = (why) => why instanceof LumenError && why.message.includes("both say the target");
+  await assert.rejects(surface.optimise({ reduction: 90, triangles: 500 }), twice);
+  await assert.rejects(surface.optimise({ "max-deviation": 0.1, target: "Auto" }), twice);
 });
 
 test("a signal cancels, and what was made before stays", async (t) => {
@@ -124,25 +151,73 @@ test("newer settings take the place of older ones", async (t) => {
   assert(Math.abs((await surface.level()).indices.length / 3 - TRIANGLES / 2) <= 1);
 });
 
-test("a Worker that is killed rejects what waits, and the next call begins anew", async (t) => {
+/** What Workers are asked from now on, and the last of them. */
+function watched(t) {
   const { postMessage } = Worker.prototype;
-  let worker;
+  const seen = { jobs: [] };
   t.after(() => (Worker.prototype.postMessage = postMessage));
   Worker.prototype.postMessage = function (...data) {
-    worker = this;
+    seen.worker = this;
+    if (data[0].job) seen.jobs.push(data[0].job);
     return postMessage.apply(this, data);
   };
+  return seen;
+}
+
+test("a Worker that is killed rejects what waits, and the next call begins anew", async (t) => {
+  const seen = watched(t);
   const surface = await opened(t);
   await surface.optimise(PAPER, { measures: false });
   const before = await surface.save("stl");
-  const waiting = surface.optimise({ ...PAPER, iterations: 50 }, { progress: () => worker.terminate() });
+  const waiting = surface.optimise({ ...PAPER, iterations: 50 }, { progress: () => void seen.worker.terminate() });
   await assert.rejects(waiting, (why) => why.id === "npm-stopped" && /^Lumen's Worker has stopped: [^.]+\.$/.test(why.message));
   assert(Buffer.from(before).equals(await surface.save("stl")), "made again from the file and the last settings");
+});
+
+test("calls after a Worker's death share the next one", async (t) => {
+  const seen = watched(t);
+  const surface = await opened(t);
+  await surface.optimise(PAPER, { measures: false });
+  const [before, half] = [await surface.level(), await surface.level(50)];
+  const die = async () => {
+    await seen.worker.terminate();
+    seen.jobs.length = 0;
+  };
+
+  await die();
+  const [level, other] = await Promise.all([surface.level(), surface.level(50)]);
+  assert(same(level, before) && same(other, half));
+  assert.deepEqual(seen.jobs, ["open", "optimise", "level", "level"]);
+
+  // Who no longer wants it stops nobody else; newer settings take the place of the last.
+  await die();
+  const stop = new AbortController();
+  const aborted = assert.rejects(surface.optimise(PAPER, { signal: stop.signal }), { name: "AbortError" });
+  const newer = surface.optimise({ ...PAPER, reduction: 50 }, { measures: false });
+  const waiting = surface.level();
+  stop.abort();
+  await Promise.all([aborted, newer]);
+  assert(same(await waiting, half));
+  assert.deepEqual(seen.jobs, ["open", "optimise", "level"]);
+
+  await die();
+  surface.close();
+  const closed = { name: "LumenError", id: "npm-closed" };
+  await assert.rejects(surface.level(), closed);
+  await assert.rejects(surface.optimise(PAPER), closed);
+  assert.deepEqual(seen.jobs, []);
+});
+
+test("a bundler for browsers finds no module of Node", async () => {
+  for (const name of ["index.js", "worker.js"]) {
+    assert.doesNotMatch(await readFile(join(built, name), "utf8"), /import\([^)]*["'`]node:/, name);
+  }
 });
 
 test("a program that is done ends, though its surfaces are open", async () => {
   const text = `import { open } from "lumen-vessel"; import { readFileSync } from "node:fs";
     const surface = await open(readFileSync("tube.stl"), "tube.stl");
+    await surface.optimise({ iterations: () => 0 }).catch(() => {});
     await surface.optimise({ iterations: 0, reduction: 90 }, { measures: false });
     console.log((await surface.level()).indices.length / 3);`;
   await writeFile(join(outside, "once.mjs"), text);

@@ -23,7 +23,7 @@ const STYLE = `
     :host { --ink: #e6eaed; --weak: #a0abb4; --line: #3a444c; --ground: #14191d; --accent: #5cc3de; --bad: #ff8a80 } }
   :host([hidden]), [hidden] { display: none !important }
   .stage { position: relative }
-  canvas { display: block; width: 100%; height: min(56vh, 420px); touch-action: none }
+  canvas { display: block; width: 100%; height: min(56vh, 420px); touch-action: pan-y } canvas:focus { touch-action: none }
   .tall canvas { height: min(56vh, 480px) }
   canvas:focus-visible { outline: 2px solid var(--accent); outline-offset: -2px }
   .stage span { position: absolute; top: 8px; left: 12px; color: var(--weak); pointer-events: none }
@@ -41,7 +41,7 @@ const STYLE = `
 
 const SHADOW = `
 <div class="stage" hidden>
-  <canvas tabindex="0" role="img" aria-label="The surface, shaded and as wireframe. Arrow keys turn it, + and - zoom, 0 shows the whole."></canvas>
+  <canvas tabindex="0" role="img" aria-label="The surface, shaded and as wireframe. Arrow keys turn it, with Shift they move it, + and - zoom, 0 shows the whole."></canvas>
   <span>Shaded</span><span>Wireframe</span><progress aria-label="Progress" hidden></progress>
 </div>
 <div class="below">
@@ -90,9 +90,12 @@ class LumenVessel extends HTMLElement {
     queueMicrotask(() => {
       if (this.isConnected) return;
       this.#work.abort();
-      this.#surface?.close();
-      this.#surface = undefined;
-      this.#opened = "";
+      this.#forget();
+      this.#view?.end();
+      this.#view = undefined;
+      // Its context is lost for good.
+      const canvas = this.#parts.stage.querySelector("canvas");
+      canvas.replaceWith(canvas.cloneNode());
     });
   }
 
@@ -129,8 +132,9 @@ class LumenVessel extends HTMLElement {
       const options = { signal, progress: ({ fraction }) => ((progress.hidden = false), (progress.value = fraction)) };
       verdict.textContent = "Being measured...";
       verdict.className = "verdict";
-      const reduction = Number(settings.reduction);
-      if (this.#smoothed === rest && reduction >= 0 && !("triangles" in settings || "max-deviation" in settings)) {
+      const reduction = settings.reduction ? Number(settings.reduction) : NaN;
+      const isRate = reduction >= SETTINGS.reduction.least && reduction <= SETTINGS.reduction.most;
+      if (this.#smoothed === rest && isRate && !this.#isCounted()) {
         this.#show(await this.#surface.level(reduction), signal);
         await new Promise((still) => setTimeout(still, STILL_MS));
         signal.throwIfAborted();
@@ -149,6 +153,7 @@ class LumenVessel extends HTMLElement {
       // What is newer says how it goes on.
       if (signal.aborted) return;
       verdict.textContent = "";
+      if (!this.#shown) this.#parts.counts.textContent = "";
       failure.textContent = why instanceof LumenError || why instanceof Failure ? sentence(why.message) : `This surface cannot be shown: ${why.message}`;
       failure.hidden = false;
     }
@@ -158,24 +163,40 @@ class LumenVessel extends HTMLElement {
   async #open(signal) {
     const src = this.getAttribute("src");
     const unit = this.getAttribute("unit") ?? undefined;
-    const address = src === null ? "" : new URL(src, document.baseURI).href;
-    const asked = src === null ? "" : `${unit} ${address}`;
-    if (asked === this.#opened) return;
-    this.#surface?.close();
-    [this.#surface, this.#opened, this.#smoothed] = [undefined, "", ""];
-    this.#parts.counts.textContent = src === null ? "" : "Loading...";
-    this.#parts.verdict.textContent = "";
+    // What is no address is refused by `fetch`, in its words.
+    const address = src !== null && URL.canParse(src, document.baseURI) ? new URL(src, document.baseURI).href : src;
+    const asked = `${unit} ${address}`;
+    if (src !== null && asked === this.#opened) return;
+    this.#forget();
     if (src === null) return;
+    this.#parts.counts.textContent = "Loading...";
     const answer = await fetch(address, { signal }).catch((why) => {
       signal.throwIfAborted();
       throw new Failure(`The surface cannot be loaded: ${why.message}.`);
     });
     if (!answer.ok) throw new Failure(`The surface cannot be loaded: the server answers ${answer.status}.`);
-    const name = decodeURIComponent(new URL(address).pathname.split("/").pop());
-    const surface = await open(await answer.blob(), name, { unit, signal });
+    const surface = await open(await answer.blob(), nameOf(address), { unit, signal });
     if (signal.aborted) surface.close();
     signal.throwIfAborted();
     [this.#surface, this.#opened] = [surface, asked];
+  }
+
+  /** Shows nothing, and what was shown before it is gone. */
+  #forget() {
+    const { stage, counts, failure, progress, verdict } = this.#parts;
+    this.#surface?.close();
+    [this.#surface, this.#opened, this.#smoothed, this.result] = [undefined, "", "", null];
+    if (this.#shown) this.#view.forget(this.#shown.level);
+    this.#view?.show(null);
+    this.#shown = undefined;
+    stage.hidden = failure.hidden = progress.hidden = true;
+    failure.textContent = counts.textContent = verdict.textContent = "";
+    verdict.className = "verdict";
+  }
+
+  /** Whether something else than the rate says the target. */
+  #isCounted() {
+    return this.hasAttribute("triangles") || this.hasAttribute("max-deviation");
   }
 
   #show({ positions, indices, normals }, signal) {
@@ -185,7 +206,11 @@ class LumenVessel extends HTMLElement {
     const percent = this.#entering > 0 ? (100 * (1 - count / this.#entering)).toFixed(1) : 0;
     counts.textContent = `${count.toLocaleString("en")} of ${this.#entering.toLocaleString("en")} triangles, ${percent} % fewer`;
     stage.hidden = false;
-    this.#view ??= surfaceView(stage.querySelector("canvas"), () => this.#isTall());
+    if (!this.#view) {
+      const canvas = stage.querySelector("canvas");
+      // A page that is scrolled past goes on scrolling.
+      this.#view = surfaceView(canvas, () => this.#isTall(), (event) => event.ctrlKey || event.metaKey || canvas.matches(":focus"));
+    }
     if (!this.#view) {
       stage.hidden = true;
       throw new Failure("This browser cannot draw the surface: it has no WebGL2.");
@@ -219,9 +244,10 @@ class LumenVessel extends HTMLElement {
     input.addEventListener("input", () => this.setAttribute(key, String(chosen())));
     label.append(SLIDERS[key], value, input);
     label.show = (number) => {
+      input.disabled = key === "reduction" && this.#isCounted();
       // One that is dragged stays between the steps.
       if (chosen() !== number) input.value = to(number ?? least);
-      value.textContent = number === undefined ? "auto" : `${number} ${unit}`;
+      value.textContent = input.disabled ? "" : number === undefined ? "auto" : `${number} ${unit}`;
       input.setAttribute("aria-valuetext", value.textContent);
     };
     label.key = key;
@@ -239,6 +265,16 @@ class LumenVessel extends HTMLElement {
 
 /** A failure that says itself what it is. */
 class Failure extends Error {}
+
+/** The name of the file at an address; a % that is no escape stays one. */
+function nameOf(address) {
+  const name = new URL(address).pathname.split("/").pop();
+  try {
+    return decodeURIComponent(name);
+  } catch {
+    return name;
+  }
+}
 
 const sentence = (text) => (/[.!?]$/.test(text) ? text : `${text}.`).replace(/^./, (letter) => letter.toUpperCase());
 

@@ -1,6 +1,6 @@
 // Lumen for programs. Not for clinical decisions.
 
-import type { Certificate, ImportReport, Keep, Report, Settings, SettingsByName, VerdictReport } from "./types.js";
+import type { Certificate, ImportReport, Keep, Report, Settings, SettingsByName, Target, VerdictReport } from "./types.js";
 
 export type * from "./types.js";
 
@@ -15,14 +15,15 @@ export interface Progress {
 export interface Cancellable {
   /** Cancels: the promise is rejected with the signal's reason, and what was made before stays. */
   signal?: AbortSignal;
+  /** What it throws cancels, too, and rejects the promise. */
   progress?: (progress: Progress) => void;
 }
 
 /**
  * Settings over the defaults: as they stand in a settings file under `settings`, whole or in part, or by the names of the
- * command line, such as `"pass-band": 0.01`.
+ * command line, such as `"pass-band": 0.01`. The target is said once.
  */
-export type AnySettings = { [Part in keyof Settings]?: Settings[Part] extends Keep | string ? Settings[Part] : Partial<Settings[Part]> } & SettingsByName;
+export type AnySettings = { [Part in keyof Settings]?: Part extends "keep" ? Keep | "largest" | "all" | number : Settings[Part] extends Target | string ? Settings[Part] : Partial<Settings[Part]> } & SettingsByName;
 
 /** What was made. */
 export interface Result {
@@ -58,7 +59,10 @@ export interface Centrelines {
   parents: Int32Array;
 }
 
-/** An opened surface. It has a Worker of its own; after that has died, the next call begins anew from the file. */
+/**
+ * An opened surface. It has a Worker of its own; after that has died, the next call begins anew from the file. An argument of the
+ * wrong kind rejects with a TypeError, a number out of range with a RangeError, and nothing else happens.
+ */
 export interface Surface {
   /** What `lumen inspect --json` says of the file. */
   readonly info: ImportReport;
@@ -74,7 +78,7 @@ export interface Surface {
   centrelines(): Promise<Centrelines>;
   /** A level as a file: the bytes that `lumen optimise` writes. */
   save(format: "stl" | "ply" | "obj" | "vtp" | "vtk" | "glb", reduction?: number): Promise<Uint8Array>;
-  /** Ends the Worker and gives back its memory. */
+  /** Ends the Worker and gives back its memory. What is asked afterwards is refused: `npm-closed`. */
   close(): void;
 }
 

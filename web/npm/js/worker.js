@@ -9,6 +9,8 @@ import initialise, { Reading, Wanted } from "./lumen-npm.js";
 const SLICE_MS = 12;
 
 const isNode = typeof WorkerGlobalScope === "undefined";
+/** Not literals where they are imported: a bundler for browsers would look for them. */
+const NODE = { files: "node:fs/promises", threads: "node:worker_threads" };
 let post;
 let lastWords = "";
 // The program calls it when it panics, and ends in a trap.
@@ -30,7 +32,7 @@ const jobs = {
   },
 
   async optimise(call, { settings, measures }) {
-    surface.set(JSON.stringify(settings), WANTED[measures]);
+    surface.set(settings, WANTED[measures]);
     optimising = call;
     for (let told; (told = surface.advance(SLICE_MS)) !== undefined; ) {
       post({ call, progress: JSON.parse(told) });
@@ -91,7 +93,7 @@ async function hear({ call, job, cancel, ...needed }) {
 async function begin() {
   const address = new URL("./lumen-npm_bg.wasm", import.meta.url);
   if (!isNode) return initialise({ module_or_path: address });
-  const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:fs/promises");
+  const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ NODE.files);
   return initialise({ module_or_path: await readFile(address) });
 }
 
@@ -99,7 +101,7 @@ const ready = begin();
 // Whoever asks hears of it.
 ready.catch(() => {});
 if (isNode) {
-  const { parentPort } = await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:worker_threads");
+  const { parentPort } = await import(/* webpackIgnore: true */ /* @vite-ignore */ NODE.threads);
   post = (message, transfer) => parentPort.postMessage(message, transfer);
   parentPort.on("message", hear);
 } else {
