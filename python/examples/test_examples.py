@@ -90,6 +90,7 @@ def test_what_failed_is_told_at_the_end(surfaces, tmp_path):
 @pytest.mark.skipif(not PROGRAM, reason="LUMEN_PROGRAM names no command line")
 @pytest.mark.skipif(os.name == "nt", reason="Windows kills no groups of processes")
 def test_snakemake_does_what_is_missing(surfaces, tmp_path):
+    (surfaces / "folder.stl").mkdir()
     settings = tmp_path / "settings.json"
     settings.write_text(json.dumps(lumen.settings(smoothing="paper", reduction=90)))
     config = [f"{name}={tmp_path / name}" for name in ["surfaces", "results"]] + [f"settings={settings}"]
@@ -112,12 +113,13 @@ def test_snakemake_does_what_is_missing(surfaces, tmp_path):
     time.sleep(0.5)
     early = written(tmp_path / "results")
     run(0, "--unlock")
-    # One of them is no surface: the others are done.
+    # One of them is no surface, and one no file: the others are done.
     first = run(1)
     assert len(first) == 10 and sum(first[name] == early[name] for name in early) >= 1
     for path in (tmp_path / "results").glob("*.stl"):
         assert len(lumen.read(path).triangles) in range(1439, 1442)
     (surfaces / "broken.stl").unlink()
+    (surfaces / "folder.stl").rmdir()
     for path in surfaces.iterdir():
         os.utime(path)
     assert run(0) == first
