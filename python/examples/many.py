@@ -12,10 +12,11 @@ import hashlib
 import json
 import os
 import sys
+import uuid
 from pathlib import Path
 
 import lumen
-from dask.distributed import Client, as_completed
+from dask.distributed import Client, as_completed, wait
 
 ENDINGS = {".stl", ".ply", ".obj", ".vtp", ".vtk", ".glb"}
 
@@ -34,24 +35,33 @@ def optimise(path, results, name, settings):
         return False
     made = lumen.read(path).optimise(settings)
     made.reduced.save(report.with_suffix(".stl"))
-    part = report.with_suffix(f".{os.getpid()}.part")
-    part.write_text(json.dumps(made.report))
+    # Two machines can have processes of one number.
+    part = report.with_suffix(f".{uuid.uuid4().hex}.part")
+    with part.open("x") as file:
+        json.dump(made.report, file)
     # The report is there whole and last: it says that the result is.
     part.replace(report)
     return True
 
 
 def run(client, surfaces, results, **named):
-    """Does what is missing; the files by the key of their result, the keys that were made, and the errors of those that failed."""
+    """Does what is missing; the files by the key of their result, the keys that were made, and the errors by file.
+
+    A file that cannot be read has an error and no key."""
     settings = lumen.settings(**named)
     paths = sorted(str(path.resolve()) for path in Path(surfaces).iterdir() if path.suffix.lower() in ENDINGS)
     Path(results).mkdir(parents=True, exist_ok=True)
-    keys = client.gather(client.map(key, paths, settings=settings, pure=False))
-    # Two files of the same bytes are one piece of work.
-    files = dict(zip(keys, paths))
+    made, errors, files = [], {}, {}
+    digests = client.map(key, paths, settings=settings, pure=False)
+    wait(digests)
+    for path, digest in zip(paths, digests):
+        if digest.status == "error":
+            errors[path] = str(digest.exception())
+        else:
+            # Two files of the same bytes are one piece of work.
+            files[digest.result()] = path
     futures = {client.submit(optimise, path, str(Path(results).resolve()), name, settings, key=f"lumen-{name}"): name
                for name, path in files.items()}
-    made, errors = [], {}
     for future in as_completed(futures):
         name = futures[future]
         if future.status == "error":
@@ -63,11 +73,17 @@ def run(client, surfaces, results, **named):
 
 def main():
     surfaces, results, *named = sys.argv[1:]
+    named = dict(pair.split("=", 1) for pair in named)
+    try:
+        lumen.settings(**named)
+    except (TypeError, ValueError, lumen.Error) as error:
+        sys.exit(f"settings: {error}")
     address = os.environ.get("DASK_SCHEDULER_ADDRESS")
     # Lumen works on all cores by itself: a few workers of one thread keep them busy where it reads and writes.
     with Client(address) if address else Client(n_workers=2, threads_per_worker=1) as client:
-        files, made, errors = run(client, surfaces, results, **dict(pair.split("=", 1) for pair in named))
-    print(f"{len(files)} surfaces: {len(made)} made, {len(files) - len(made) - len(errors)} were there, {len(errors)} failed")
+        files, made, errors = run(client, surfaces, results, **named)
+    total = len(set(files.values()) | set(errors))
+    print(f"{total} surfaces: {len(made)} made, {total - len(made) - len(errors)} were there, {len(errors)} failed")
     for path, error in errors.items():
         print(f"{path}: {error}")
     sys.exit(1 if errors else 0)

@@ -7,12 +7,18 @@
 
 Not for clinical decisions.
 """
+import os
+
 import numpy
 
-from ._lumen import (Centrelines, Error, Guidewire, Levels, Optimised, Surface, __version__, read, settings, write)
+from ._lumen import (Centrelines, Error, Guidewire, Levels, Optimised, Surface, __version__, _forked, read, settings, write)
 
 __all__ = ["Centrelines", "Error", "Guidewire", "Levels", "Optimised", "Surface", "__version__", "from_voxels", "read", "settings",
            "write"]
+
+if hasattr(os, "register_at_fork"):
+    # A fork copies no threads: what waits for those of the parent would wait forever.
+    os.register_at_fork(after_in_child=_forked)
 
 #: What NRRD calls the kinds of numbers, by numpy's names.
 _KINDS = {"bool": "uint8", "uint8": "uint8", "int8": "int8", "int16": "int16", "uint16": "uint16", "int32": "int32", "uint32": "uint32",

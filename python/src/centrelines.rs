@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Numbers, array};
 use crate::error::refused;
-use crate::working::{slice, worked};
+use crate::working::{detached, slice, worked};
 
 /// The middles of the vessels, a line a branch, a parent before its branches.
 #[pyclass(frozen, get_all, module = "lumen")]
@@ -34,7 +34,7 @@ pub(crate) fn found(py: Python<'_>, mesh: &Arc<TriMesh>, keep: &str) -> PyResult
     let keep: Keep = keep.parse().map_err(|_| PyValueError::new_err(format!("{keep} is no value of keep")))?;
     let mut pipeline = Pipeline::new(mesh.clone(), Settings { keep, ..Settings::default() });
     while pipeline.kept().is_none() {
-        py.detach(|| pipeline.advance(slice())).map_err(|error| refused(py, &error))?;
+        detached(py, || pipeline.advance(slice()))?.map_err(|error| refused(py, &error))?;
         py.check_signals()?;
     }
     let kept = pipeline.kept().ok_or_else(|| PyRuntimeError::new_err("there is no surface"))?;

@@ -10,6 +10,7 @@ use pyo3::types::PyDict;
 
 use crate::error::{self, parsed};
 use crate::surface::Surface;
+use crate::working::detached;
 
 /// A guidewire in a surface. `ask` takes and gives what `lumen trial --serve` does, as dictionaries.
 ///
@@ -31,7 +32,7 @@ impl Guidewire {
         seed: u64,
     ) -> PyResult<Self> {
         let setup = setup(wire, entry, direction, target, seed)?;
-        let door = py.detach(|| Door::new(surface.mesh.clone(), surface.sample, setup, None));
+        let door = detached(py, || Door::new(surface.mesh.clone(), surface.sample, setup, None))?;
         door.map(Self).map_err(|error| refused(py, &error))
     }
 
@@ -39,7 +40,7 @@ impl Guidewire {
     #[pyo3(signature = (**request))]
     fn ask<'py>(&mut self, py: Python<'py>, request: Option<&Bound<'py, PyDict>>) -> PyResult<Bound<'py, PyAny>> {
         let line: String = py.import("json")?.call_method1("dumps", (request,))?.extract()?;
-        let answer = py.detach(|| self.0.answered(line.as_bytes()));
+        let answer = detached(py, || self.0.answered(line.as_bytes()))?;
         parsed(py, &answer.map_err(|error| refused(py, &error))?)
     }
 

@@ -33,6 +33,8 @@ mod _lumen {
     use super::settings::settings;
     #[pymodule_export]
     use super::surface::Surface;
+    #[pymodule_export]
+    use super::working::_forked;
 
     #[pymodule_export]
     #[allow(non_upper_case_globals, reason = "Python calls it so")]

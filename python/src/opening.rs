@@ -19,7 +19,7 @@ use pyo3::types::PyBytes;
 
 use crate::error::{refused, unusable};
 use crate::surface::Surface;
-use crate::working::worked;
+use crate::working::{detached, worked};
 
 /// What of a scan is the vessel.
 #[derive(Clone, Copy)]
@@ -34,7 +34,7 @@ struct Wanted {
 /// `name` is the file's name where bytes are read; it matters where they alone do not tell the format, as with OBJ. `unit` is
 /// that of the file's numbers: "mm", "cm", "m", or "auto" for the one in which the size is that of vessels. Of a scan
 /// `threshold` says where the vessel's wall is, of a mask `label` which label it is (all but 0 without it), and `seed` leaves
-/// only what is connected to that point in mm.
+/// only what is connected to that point in mm. What takes none of these refuses them with a `TypeError`.
 ///
 /// Not for clinical decisions.
 #[pyfunction]
@@ -50,6 +50,9 @@ pub(crate) fn read(
 ) -> PyResult<Surface> {
     let wanted = Wanted { threshold, label, seed };
     let is_chosen = threshold.is_some() || label.is_some() || seed.is_some();
+    if threshold.is_some() && label.is_some() {
+        return Err(PyTypeError::new_err("threshold and label are two ways to say one thing"));
+    }
     let (name, files) = match source.cast::<PyBytes>() {
         Ok(bytes) => {
             let name = name.unwrap_or_default();
@@ -59,12 +62,15 @@ pub(crate) fn read(
         }
         Err(_) => {
             let path: PathBuf = source.extract()?;
-            let name = name.unwrap_or_else(|| path.to_string_lossy().into_owned());
-            if let Some(sample) = name.strip_prefix("sample:") {
+            let source = path.to_string_lossy().into_owned();
+            if let Some(sample) = source.strip_prefix("sample:") {
+                if unit.is_some() || is_chosen {
+                    return Err(PyTypeError::new_err("a sample takes no unit, threshold, label or seed"));
+                }
                 let sample: Sample = sample.parse().map_err(|error| PyValueError::new_err(format!("{error}")))?;
-                return Ok(Surface::opened(made(py, sample)?, name, Some(sample)));
+                return Ok(Surface::opened(made(py, sample)?, name.unwrap_or(source), Some(sample)));
             }
-            (name, py.detach(|| gathered(&path)).map_err(|error| unusable(&error, &path))?)
+            (name.unwrap_or(source), detached(py, || gathered(&path))?.map_err(|error| unusable(&error, &path))?)
         }
     };
     let read = match files {
@@ -103,8 +109,9 @@ fn made(py: Python<'_>, sample: Sample) -> PyResult<Imported> {
             ControlFlow::Break(())
         }
     };
-    let made =
-        py.detach(|| phantom::generate_with(sample, sample.default_triangles(), &mut |_| Python::attach(&mut heard)));
+    let made = detached(py, || {
+        phantom::generate_with(sample, sample.default_triangles(), &mut |_| Python::attach(&mut heard))
+    })?;
     signal?;
     Ok(import_mesh(made.map_err(|error| refused(py, &error))?, "sample"))
 }

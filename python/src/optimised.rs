@@ -13,14 +13,14 @@ use lumen::pipeline::results::{Reduced, Smoothed};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Target};
 use lumen::pipeline::verdict::{Verdict, VerdictReport, rate};
-use pyo3::exceptions::{PyKeyError, PyRuntimeError};
+use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error::{refused, told};
 use crate::settings::Asked;
 use crate::surface::Surface;
-use crate::working::Teller;
+use crate::working::{Teller, detached};
 
 /// A surface that was smoothed and reduced.
 #[pyclass(frozen, module = "lumen")]
@@ -55,7 +55,13 @@ pub(crate) fn optimised(
     asked: &Asked,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Optimised> {
-    let import = py.detach(|| surface.imported());
+    if let Some(unit) = asked.unit {
+        let text = format!(
+            "the settings file has a unit, which is of reading: give it to read(unit=\"{unit}\"), and optimise none"
+        );
+        return Err(PyTypeError::new_err(text));
+    }
+    let import = detached(py, || surface.imported())?;
     let pipeline = Pipeline::new(surface.mesh.clone(), asked.settings.clone()).with_samples(REPORT_SAMPLES);
     let mut pipeline = pipeline.with_arrays(surface.arrays.clone()).with_certificate();
     let mut teller = Teller::new(progress);
@@ -157,12 +163,12 @@ impl Levels {
         if !(0.0..=most).contains(&rate) {
             return Err(PyKeyError::new_err(format!("a rate is 0 to {most}, not {rate}")));
         }
-        let (mesh, normals) = py.detach(|| {
+        let (mesh, normals) = detached(py, || {
             let level = self.progressive.level(Target::Reduction((rate * 1000.0).round() as u32));
             let mesh = self.progressive.extract(&level.triangles);
             let normals = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
             (mesh, normals)
-        });
+        })?;
         Ok(self.source.surface(Arc::new(mesh), normals, Vec::new()))
     }
 }

@@ -1,5 +1,6 @@
 //! Settings by the names that the settings file and the command line have for them: those of the one table.
 
+use lumen::io::Unit;
 use lumen::pipeline::settings::table::{self, Setting};
 use lumen::pipeline::settings::{Preset, Settings, Target};
 use lumen::pipeline::verdict::rate;
@@ -15,9 +16,13 @@ pub(crate) struct Asked {
     pub(crate) settings: Settings,
     /// Whether the rate is to be the highest that is safe.
     pub(crate) wants_safe: bool,
+    /// What the settings file says of the unit that surfaces are read in.
+    pub(crate) unit: Option<Unit>,
 }
 
 /// The settings that these names come to, as the content of a settings file: `json.dump` writes one for `--settings`.
+///
+/// `reduction="safe"` is no rate before a surface is there; `optimise` takes it.
 #[pyfunction]
 #[pyo3(signature = (settings=None, **named))]
 pub(crate) fn settings<'py>(
@@ -25,8 +30,11 @@ pub(crate) fn settings<'py>(
     settings: Option<&Bound<'py, PyDict>>,
     named: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let Asked { settings, .. } = asked(py, settings, named)?;
-    py.import("json")?.call_method1("loads", (write_settings(&SharedSettings { unit: None, settings }),))
+    let Asked { settings, wants_safe, unit } = asked(py, settings, named)?;
+    if wants_safe {
+        return Err(PyValueError::new_err("reduction='safe' is found by optimise: settings have no rate for it"));
+    }
+    py.import("json")?.call_method1("loads", (write_settings(&SharedSettings { unit, settings }),))
 }
 
 /// The settings of a file or by name, and over them those that are named beside.
@@ -35,12 +43,12 @@ pub(crate) fn asked(
     given: Option<&Bound<'_, PyDict>>,
     named: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Asked> {
-    let mut asked = Asked { settings: Settings::default(), wants_safe: false };
+    let mut asked = Asked { settings: Settings::default(), wants_safe: false, unit: None };
     match given {
         Some(file) if file.contains("format")? => {
             let text: String = py.import("json")?.call_method1("dumps", (file,))?.extract()?;
             let read = read_settings(text.as_bytes()).map_err(|error| PyValueError::new_err(error.to_string()))?;
-            asked.settings = read.settings;
+            (asked.settings, asked.unit) = (read.settings, read.unit);
         }
         Some(given) => put(&mut asked, given)?,
         None => {}
@@ -75,6 +83,9 @@ fn put(asked: &mut Asked, named: &Bound<'_, PyDict>) -> PyResult<()> {
 
 fn set(asked: &mut Asked, name: &str, setting: &Setting, value: &Bound<'_, PyAny>) -> PyResult<()> {
     let text = text(value)?;
+    if setting.field == "target" {
+        asked.wants_safe = false;
+    }
     if setting.key == "reduction" {
         asked.wants_safe = text == "safe";
         if asked.wants_safe {

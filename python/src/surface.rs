@@ -1,7 +1,11 @@
 //! A surface, and what can be done with it.
 
-use std::path::PathBuf;
+use std::fs::{self, OpenOptions};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use lumen::io::{
     self, Axes, Format, ImportReport, Imported, Unit, UnknownUnit, import_arrays, import_mesh, in_english,
@@ -20,7 +24,7 @@ use crate::error::{refused, told, unusable};
 use crate::guidewire::setup;
 use crate::opening::output_format;
 use crate::optimised::{Optimised, optimised};
-use crate::working::{Teller, slice, worked};
+use crate::working::{Teller, detached, slice, worked};
 
 /// A surface of triangles in mm.
 ///
@@ -91,7 +95,7 @@ impl Surface {
     /// What is in it, as `lumen inspect --json` says it: area, volume, pieces, open edges.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        told(py, &py.detach(|| self.imported()))
+        told(py, &detached(py, || self.imported())?)
     }
 
     /// Keeps the largest piece, smooths it, and reduces it to a progressive mesh.
@@ -132,20 +136,20 @@ impl Surface {
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let mut setup = setup(wire, entry, direction, target, seed)?;
-        let begun = py.detach(|| {
+        let begun = detached(py, || {
             let course = Course::new(&self.mesh, self.sample, &mut setup)?;
             Trial::new(Arc::new(course), setup)
-        });
+        })?;
         let mut trial = begun.map_err(|error| refused(py, &error))?;
         let mut teller = Teller::new(progress);
         trial.set_autopilot(true);
         while trial.progress() == Progress::Running {
-            py.detach(|| {
+            detached(py, || {
                 let budget = slice();
                 while trial.progress() == Progress::Running && !budget.is_spent() {
                     trial.step();
                 }
-            });
+            })?;
             teller.tell("Trial", trial.part_done() as f32)?;
             py.check_signals()?;
         }
@@ -156,14 +160,8 @@ impl Surface {
     #[allow(clippy::needless_pass_by_value, reason = "Python gives it away")]
     pub(crate) fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let format = output_format(&path)?;
-        let bytes = py.detach(|| self.written(format)).map_err(|error| refused(py, &error))?;
-        py.detach(|| {
-            let mut part = path.clone().into_os_string();
-            part.push(format!(".{}.part", std::process::id()));
-            let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, &path));
-            written.inspect_err(|_| drop(std::fs::remove_file(&part)))
-        })
-        .map_err(|error| unusable(&error, &path))
+        let bytes = detached(py, || self.written(format))?.map_err(|error| refused(py, &error))?;
+        py.detach(|| put_whole(&path, &bytes)).map_err(|error| unusable(&error, &path))
     }
 
     fn __repr__(&self) -> String {
@@ -178,4 +176,20 @@ impl Surface {
         let normals = (!normals.is_empty()).then_some(&normals[..]);
         io::write_output(&io::Output { mesh, normals, arrays, axes: *axes }, format)
     }
+}
+
+/// Writes a file beside `path` that nothing else writes, and gives it that name.
+fn put_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    /// Files that this process has begun: threads may write to one path at once.
+    static BEGUN: AtomicUsize = AtomicUsize::new(0);
+    let number = BEGUN.fetch_add(1, Ordering::Relaxed);
+    // Other machines that see the folder have processes of the same number.
+    let nanos = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_nanos());
+    let mut part = path.to_owned().into_os_string();
+    part.push(format!(".{}.{number}.{nanos}.part", std::process::id()));
+    let mut file = OpenOptions::new().write(true).create_new(true).open(&part)?;
+    let written = file.write_all(bytes);
+    // Windows renames none that is open.
+    drop(file);
+    written.and_then(|()| fs::rename(&part, path)).inspect_err(|_| drop(fs::remove_file(&part)))
 }

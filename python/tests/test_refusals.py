@@ -44,6 +44,27 @@ def test_settings_that_are_none(tube, named, expected):
         lumen.Surface(*tube).optimise(**named)
 
 
+def test_safe_is_no_setting_before_there_is_a_surface():
+    for given in [{"settings": {"reduction": "safe"}}, {"reduction": "safe"}, {"settings": lumen.settings(), "reduction": "safe"}]:
+        with pytest.raises(ValueError, match="found by optimise"):
+            lumen.settings(**given)
+
+
+def test_what_would_have_no_effect(tmp_path, tube):
+    surface, mask = lumen.Surface(*tube), np.zeros((8, 8, 8), np.uint8)
+    mask[2:6, 2:6, 2:6] = 1
+    with pytest.raises(TypeError, match="unit"):
+        surface.optimise({**lumen.settings(), "unit": "cm"})
+    for unfit in [{"unit": "mm"}, {"threshold": 100}, {"label": 1}, {"seed": (0, 0, 0)}]:
+        with pytest.raises(TypeError, match="sample"):
+            lumen.read("sample:aorta", **unfit)
+    with pytest.raises(TypeError, match="threshold and label"):
+        lumen.from_voxels(mask, threshold=0.5, label=1)
+    surface.save(tmp_path / "tube.stl")
+    for source in [tmp_path / "tube.stl", (tmp_path / "tube.stl").read_bytes()]:
+        assert len(lumen.read(source, "sample:aorta").triangles) == len(surface.triangles)
+
+
 def test_a_rate_below_one_percent_is_warned_of():
     with pytest.warns(UserWarning, match="reduction=90"):
         lumen.settings(reduction=0.9)

@@ -19,6 +19,9 @@ def test_the_stubs_name_what_is_there_and_nothing_else():
             own = {part.name for part in item.body if isinstance(part, ast.FunctionDef)} - {"__init__", "__getitem__"}
             there = {name for name in vars(getattr(lumen, item.name)) if not name.startswith("_")}
             assert own == there, item.name
+        if isinstance(item, ast.Assign):
+            # What only the stubs have is no name that programs can use.
+            assert all(target.id.startswith("_") for target in item.targets), ast.unparse(item)
     assert names | {"__version__"} == set(lumen.__all__)
 
 

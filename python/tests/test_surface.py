@@ -1,5 +1,7 @@
 """Surfaces in and out: arrays, files, masks."""
 import gc
+import os
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -58,6 +60,17 @@ def test_files_are_written_and_read(tmp_path, tube, ending):
     assert len(read.triangles) == len(surface.triangles)
     again = lumen.read(path.read_bytes(), path.name)
     assert (again.points == read.points).all()
+
+
+def test_threads_that_write_one_file_leave_a_whole_one(tmp_path, tube):
+    surface, path = lumen.Surface(*tube), tmp_path / "tube.stl"
+    with ThreadPoolExecutor(8) as pool:
+        written = [pool.submit(surface.save, path) for _ in range(40)]
+    errors = [future.exception() for future in written]
+    # Windows does not always let two rename to one name at once.
+    assert os.name == "nt" or not any(errors)
+    assert [found.name for found in tmp_path.iterdir()] == [path.name]
+    assert len(lumen.read(path).triangles) == len(surface.triangles)
 
 
 def test_units_become_millimetres(tmp_path, tube):
