@@ -131,7 +131,7 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
         ask(ui.button(say!("app-open")).on_hover_text(say!("app-open-help")).clicked(), Action::Open);
         if room >= Room::Units {
             icon_menu(ui, Icon::Down, &say!("app-open-in"), &say!("app-open-in-help"), &mut |ui| {
-                units(ui, can_compare, &mut ask)
+                units(ui, can_compare, &mut ask);
             });
         }
         menu(ui, &say!("app-sample"), &mut |ui| {
