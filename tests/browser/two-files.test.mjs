@@ -18,6 +18,8 @@ test("a file is compared with another: a tube with one that is a tenth wider", a
   await says(page, /narrow\.stl/);
   await settled(page);
   await press(page, "button", "Compare");
+  // It is there before it has its place.
+  await twin(page, "button", "Compare with a file...").waitFor();
   const chooser = page.waitForEvent("filechooser");
   await press(page, "button", "Compare with a file...");
   await (await chooser).setFiles({ name: "wide.stl", mimeType: "application/octet-stream", buffer: Buffer.from(tube({ radius: 3.3 })) });
