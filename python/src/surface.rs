@@ -1,12 +1,9 @@
 //! A surface, and what can be done with it.
 
-use std::fs::{self, OpenOptions};
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::{SystemTime, UNIX_EPOCH};
 
+use lumen::cli::whole::put_whole;
 use lumen::io::{
     self, Axes, Format, ImportReport, Imported, Unit, UnknownUnit, import_arrays, import_mesh, in_english,
 };
@@ -176,20 +173,4 @@ impl Surface {
         let normals = (!normals.is_empty()).then_some(&normals[..]);
         io::write_output(&io::Output { mesh, normals, arrays, axes: *axes }, format)
     }
-}
-
-/// Writes a file beside `path` that nothing else writes, and gives it that name.
-fn put_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    /// Files that this process has begun: threads may write to one path at once.
-    static BEGUN: AtomicUsize = AtomicUsize::new(0);
-    let number = BEGUN.fetch_add(1, Ordering::Relaxed);
-    // Other machines that see the folder have processes of the same number.
-    let nanos = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_nanos());
-    let mut part = path.to_owned().into_os_string();
-    part.push(format!(".{}.{number}.{nanos}.part", std::process::id()));
-    let mut file = OpenOptions::new().write(true).create_new(true).open(&part)?;
-    let written = file.write_all(bytes);
-    // Windows renames none that is open.
-    drop(file);
-    written.and_then(|()| fs::rename(&part, path)).inspect_err(|_| drop(fs::remove_file(&part)))
 }

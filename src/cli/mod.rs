@@ -46,6 +46,7 @@ mod sweep;
 mod tables;
 mod trial;
 mod trial_tables;
+pub mod whole;
 mod written;
 
 use std::io::Write as _;

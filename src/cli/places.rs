@@ -7,6 +7,7 @@ use std::path::{Component, Path, PathBuf};
 use anyhow::{Context as _, Result};
 
 use super::misuse::misuse;
+use super::whole::put_whole;
 use crate::io::Format;
 
 /// Refuses where one of the `outputs`, each with what it is, would go over one of the `inputs` or to the place of another. To
@@ -37,13 +38,8 @@ pub(super) fn endings(before: &str, word: &str) -> String {
 
 /// Writes `bytes` to `path` whole or not at all: what was there before stays if the disk is full.
 pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let mut name = path.file_name().context("the output has no file name")?.to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(name);
-    let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path));
-    written
-        .inspect_err(|_| drop(std::fs::remove_file(&part)))
-        .with_context(|| format!("cannot write {}", path.display()))
+    path.file_name().context("the output has no file name")?;
+    put_whole(path, bytes).with_context(|| format!("cannot write {}", path.display()))
 }
 
 fn compare<'a>(

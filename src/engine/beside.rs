@@ -11,7 +11,7 @@ use super::source::Source;
 use crate::language::tell;
 use crate::mesh::{Measures, Topology, TriMesh, measures};
 use crate::pipeline::beside::{Align, BesideReport, FileFrame, Looking, Placed, Side, axes_differ, beside, placed};
-use crate::pipeline::deviation::REPORT_SAMPLES;
+use crate::pipeline::deviation::{REPORT_SAMPLES, Rigid};
 use crate::task::{Budget, Progress, Running, Yielder};
 
 /// The parts of the time that reading and aligning take.
@@ -60,7 +60,7 @@ async fn compared(
     let found = placed((&reference, to), (&mesh, of.frame), align, &yielder.part(READ..ALIGNED)).await;
     let Placed { motion, moved } = found.map_err(|error| tell(&error))?;
     let mut surface = mesh;
-    if motion != crate::pipeline::deviation::Rigid::STILL {
+    if motion != Rigid::STILL {
         Arc::make_mut(&mut surface).positions.iter_mut().for_each(|p| *p = motion.of(*p));
     }
     yielder.rest(ALIGNED).await;
@@ -93,17 +93,13 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::engine::{Command, Engine};
+    use crate::engine::{Command, Engine, with_sample};
     use crate::io::{Axes, Format, ImportOptions, write};
     use crate::mesh::Vec3;
     use crate::mesh::shapes::icosphere;
-    use crate::phantom::Sample;
-    use crate::pipeline::settings::Settings;
 
     fn engine() -> Engine {
-        let mut engine = Engine::new();
-        let source = Source::Sample { sample: Sample::Aorta, triangles: 10_000 };
-        engine.handle(Command::Open { id: 1, source, settings: Settings::default() });
+        let mut engine = with_sample();
         run(&mut engine);
         engine
     }

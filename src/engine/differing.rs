@@ -54,18 +54,10 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::engine::{Command, Engine, Source};
+    use crate::engine::{Command, Engine, with_sample};
     use crate::mesh::Vec3;
     use crate::mesh::shapes::{icosphere, tube};
-    use crate::phantom::Sample;
     use crate::pipeline::settings::Settings;
-
-    fn engine() -> Engine {
-        let mut engine = Engine::new();
-        let source = Source::Sample { sample: Sample::Aorta, triangles: 10_000 };
-        engine.handle(Command::Open { id: 1, source, settings: Settings::default() });
-        engine
-    }
 
     /// What the engine says, and the surfaces that it compared.
     fn run(engine: &mut Engine) -> (Option<Differed>, Vec<Arc<TriMesh>>) {
@@ -82,7 +74,7 @@ mod tests {
     }
 
     fn differ(first: TriMesh, other: TriMesh) -> Differed {
-        let mut engine = engine();
+        let mut engine = with_sample();
         engine.handle(Command::Differ { id: 7, first: Arc::new(first), other: Arc::new(other) });
         let found = run(&mut engine).0.expect("an answer");
         assert_eq!(found.id, 7);
@@ -91,7 +83,7 @@ mod tests {
 
     #[test]
     fn the_same_settings_twice_make_surfaces_that_nowhere_differ() {
-        let mut engine = engine();
+        let mut engine = with_sample();
         engine.handle(Command::Compare { id: 2, settings: vec![Settings::default(); 2] });
         let (_, meshes) = run(&mut engine);
         let [first, other]: [Arc<TriMesh>; 2] = meshes.try_into().expect("two answers");
@@ -130,7 +122,7 @@ mod tests {
 
     #[test]
     fn a_cancel_ends_it() {
-        let mut engine = engine();
+        let mut engine = with_sample();
         run(&mut engine);
         let [first, other] = [10.0, 11.0].map(|radius| Arc::new(icosphere(4, radius, Vec3::ZERO)));
         engine.handle(Command::Differ { id: 2, first, other });

@@ -35,6 +35,15 @@ mod source;
 mod surfaces;
 pub mod trial;
 
+/// An engine with a small sample on its way in, for tests of what is asked of it beside the pipeline.
+#[cfg(test)]
+fn with_sample() -> Engine {
+    let mut engine = Engine::new();
+    let source = Source::Sample { sample: crate::phantom::Sample::Aorta, triangles: 10_000 };
+    engine.handle(Command::Open { id: 1, source, settings: crate::pipeline::settings::Settings::default() });
+    engine
+}
+
 pub use self::current::PATIENCE;
 pub use self::found::{
     Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, FilesCompared, LevelArrays, Opened, Over, Ready,

@@ -70,18 +70,9 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::engine::{Command, Engine, Source};
+    use crate::engine::{Command, Engine, with_sample};
     use crate::mesh::shapes::tube;
-    use crate::phantom::Sample;
-    use crate::pipeline::settings::Settings;
     use crate::prepare::PatchKind;
-
-    fn engine() -> Engine {
-        let mut engine = Engine::new();
-        let source = Source::Sample { sample: Sample::Aorta, triangles: 10_000 };
-        engine.handle(Command::Open { id: 1, source, settings: Settings::default() });
-        engine
-    }
 
     fn run(engine: &mut Engine) -> Vec<Event> {
         while engine.advance(Duration::from_millis(2)) {}
@@ -94,7 +85,7 @@ mod tests {
 
     #[test]
     fn a_tube_is_made_ready_and_written_under_the_names_that_it_is_given() {
-        let mut engine = engine();
+        let mut engine = with_sample();
         run(&mut engine);
         let mesh = Arc::new(tube(48, 80, 40.0, |_| 2.0));
         engine.handle(Command::Prepare { id: 7, mesh, plan: Plan::flow() });
@@ -120,7 +111,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_prepared_is_told_and_a_cancel_ends_the_work() {
-        let mut engine = engine();
+        let mut engine = with_sample();
         run(&mut engine);
         engine.handle(Command::Prepare { id: 2, mesh: Arc::default(), plan: Plan::flow() });
         assert_eq!(prepared(run(&mut engine)).unwrap().outcome, Err(PrepareError::Empty));

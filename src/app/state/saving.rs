@@ -16,9 +16,13 @@ impl State {
         };
         let name = format!("{}-{}.{}", document.stem(), mesh.triangles.len(), format.extension());
         let axes = document.import.axes;
-        // What is not known cannot be turned.
-        let to = self.written_axes.filter(|_| axes != Axes::Unknown).unwrap_or(axes);
+        let to = self.axes_of_file(axes);
         self.ask_for_file(&name.clone(), Command::Write { name, format, mesh, axes, to }, link);
+    }
+
+    /// What a file's coordinates grow towards, of a surface with these axes: what is not known cannot be turned.
+    fn axes_of_file(&self, axes: Axes) -> Axes {
+        self.written_axes.filter(|_| axes != Axes::Unknown).unwrap_or(axes)
     }
 
     /// Asks for the newest level and coarser ones in one file.
@@ -26,7 +30,7 @@ impl State {
         let Some(document) = &self.document else { return };
         let name = format!("{}-levels.glb", document.stem());
         let axes = document.import.axes;
-        let to = self.written_axes.filter(|_| axes != Axes::Unknown).unwrap_or(axes);
+        let to = self.axes_of_file(axes);
         self.ask_for_file(&name.clone(), Command::WriteLevels { name, axes, to }, link);
     }
 
