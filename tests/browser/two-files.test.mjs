@@ -5,7 +5,7 @@ import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { tube } from "../npm/tube.mjs";
 import { openFile, says, settled } from "./app.mjs";
-import { COARSE, launch, openApp, press, twin } from "./browser.mjs";
+import { COARSE, eventually, frames, launch, openApp, press, twin } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch()));
@@ -19,7 +19,13 @@ test("a file is compared with another: a tube with one that is a tenth wider", a
   await settled(page);
   await press(page, "button", "Compare");
   // It is there before it has its place.
-  await twin(page, "button", "Compare with a file...").waitFor();
+  const place = () => twin(page, "button", "Compare with a file...").boundingBox();
+  const stands = async () => {
+    const before = await place();
+    await frames(page, 12);
+    return before !== null && JSON.stringify(before) === JSON.stringify(await place());
+  };
+  await eventually(stands, (still) => still, { what: "a button that stands still" });
   const chooser = page.waitForEvent("filechooser");
   await press(page, "button", "Compare with a file...");
   await (await chooser).setFiles({ name: "wide.stl", mimeType: "application/octet-stream", buffer: Buffer.from(tube({ radius: 3.3 })) });
