@@ -43,7 +43,7 @@ impl Sharing {
         let measured = of.map(|of| Measured { of, measures: state.measures.to_vec() });
         // Of who never looked at the step, a file says nothing of it.
         let is_used = state.preparation.made.is_some() || state.preparation.plan != Plan::flow();
-        let beside = Beside { measured, solver: is_used.then_some(state.preparation.plan) };
+        let beside = Beside { measured, solver: is_used.then(|| state.preparation.plan.clone()) };
         files.offer_file(&name, write_settings_and(&shared(state), beside).into_bytes(), ctx);
     }
 
@@ -91,7 +91,9 @@ impl Sharing {
             Ok((shared, Beside { measured, solver })) => {
                 let unit = shared.unit;
                 apply(shared, state);
-                state.preparation.plan = solver.unwrap_or(state.preparation.plan);
+                if let Some(plan) = solver {
+                    state.preparation.plan = plan;
+                }
                 let is_read_again = take_unit(unit, state, link);
                 let mut text = say!("app-settings-taken", name = name);
                 if let Some(measured) = measured {

@@ -270,7 +270,7 @@ impl State {
 
     /// What stands now, as a step.
     fn step(&self) -> Step {
-        let (measures, plan) = (self.measures.clone(), self.preparation.plan);
+        let (measures, plan) = (self.measures.clone(), self.preparation.plan.clone());
         Step { measures, plan, ..Step::of(&self.settings, self.asked_unit()) }
     }
 
@@ -349,8 +349,23 @@ impl State {
             link.send(Command::Differ { id: self.number, first, other });
         }
         self.compare_with_file(link);
+        if !is_held {
+            self.plan_cuts(link);
+        }
         self.average(link);
         self.rest();
+    }
+
+    /// Asks where the ends of the level are cut, where that is shown and is not known.
+    fn plan_cuts(&mut self, link: &mut dyn Link) {
+        let Some(document) = self.document.as_ref().filter(|document| document.shown.is_some()) else { return };
+        if !self.preparation.ask_cuts(self.number + 1, level(document.revision)) {
+            return;
+        }
+        let Some(mesh) = document.shown_mesh() else { return };
+        self.number += 1;
+        let (id, plan) = (self.number, self.preparation.plan.clone());
+        link.send(Command::PlanCuts { id, mesh: Arc::new(mesh), plan });
     }
 
     /// Asks for plain Laplacian smoothing where that is to be shown and is not, or no longer, what the settings would show.
@@ -386,9 +401,9 @@ impl State {
     fn rest(&mut self) {
         self.work = match self.work {
             Some((Work::Comparing, _)) if !self.comparison.is_busy() => None,
-            Some((Work::Preparing, _)) if !self.preparation.is_busy() => None,
+            Some((Work::Preparing, _)) if !self.preparation.is_worked_on() => None,
             Some((Work::Beside, _)) if !self.against.is_busy() => None,
-            None if self.preparation.is_busy() => Some((Work::Preparing, 0.0)),
+            None if self.preparation.is_worked_on() => Some((Work::Preparing, 0.0)),
             None if self.against.is_busy() => Some((Work::Beside, 0.0)),
             None if self.comparison.is_busy() => Some((Work::Comparing, 0.0)),
             work => work,
@@ -409,7 +424,7 @@ impl State {
     /// Leaves what covers the method, but for trials and scans.
     pub fn leave_modes(&mut self) {
         self.comparison.set_open(false);
-        (self.preparation.is_open, self.against.is_open) = (false, false);
+        (self.preparation.shown, self.against.is_open) = (None, false);
     }
 
     /// Has the level that is shown made ready for a solver.
@@ -421,7 +436,7 @@ impl State {
             self.load(link);
         }
         self.number += 1;
-        let (id, plan) = (self.number, self.preparation.plan);
+        let (id, plan) = (self.number, self.preparation.plan.clone());
         self.preparation.ask(id, of);
         link.send(Command::Prepare { id, mesh: Arc::new(mesh), plan });
         self.rest();

@@ -15,8 +15,9 @@ use super::{interrupt, places};
 use crate::io::Imported;
 use crate::pipeline::report::DISCLAIMER;
 use crate::prepare::cap::CapKind;
+use crate::prepare::cuts::{ClipAt, Cut};
 use crate::prepare::ends::Length;
-use crate::prepare::prepare::{ClipAt, Plan, Prepared, prepare};
+use crate::prepare::prepare::{Plan, Prepared, prepare};
 use crate::prepare::remesh::Sizing;
 use crate::prepare::write::SolverFormat;
 use crate::sharing::{Beside, read_settings_and};
@@ -41,6 +42,9 @@ pub struct Prepare {
     /// Cut the ends square to the vessel: "round" for where each is round, or so far in: radii, or mm as in 3mm; "none"
     #[arg(long, value_name = "WHERE", value_parser = or_none(clip_at), allow_hyphen_values = true)]
     clip: Option<Said<ClipAt>>,
+    /// Cut the end nearest to a place in mm elsewhere than the others, as in 12.5,-3,80=3mm; "none" leaves it
+    #[arg(long, value_name = "X,Y,Z=WHERE", value_parser = end_cut, allow_hyphen_values = true)]
+    clip_end: Vec<Cut>,
     /// Extend each end by so many radii, or mm as in 30mm; "none"
     #[arg(long, value_name = "LENGTH", value_parser = or_none(length), allow_hyphen_values = true)]
     extend: Option<Said<Length>>,
@@ -107,6 +111,15 @@ fn clip_at(text: &str) -> Result<ClipAt, String> {
     if text == "round" { Ok(ClipAt::Round) } else { length(text).map(ClipAt::Distance) }
 }
 
+fn end_cut(text: &str) -> Result<Cut, String> {
+    let wrong = || format!("{text} is no cut of an end: a place in mm and where is, as in 12.5,-3,80=3mm");
+    let (place, at) = text.split_once('=').ok_or_else(wrong)?;
+    let numbers: Option<Vec<f64>> =
+        place.split(',').map(|x| x.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    let end_mm = numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(wrong)?;
+    Ok(Cut { end_mm, at: or_none(clip_at)(at)?.so() })
+}
+
 fn cap_kind(text: &str) -> Result<CapKind, String> {
     match text {
         "fan" => Ok(CapKind::Fan),
@@ -160,6 +173,8 @@ impl Prepare {
         let mut plan = Plan {
             uncross: (begun.uncross || self.uncross) && !self.no_uncross,
             clip: self.clip.map_or(begun.clip, Said::so),
+            // Of two cuts of one end the last counts.
+            cuts: [begun.cuts, self.clip_end.clone()].concat(),
             extend: self.extend.map_or(begun.extend, Said::so),
             cap: self.cap.map_or(begun.cap, Said::so),
             remesh: match self.remesh {
@@ -182,7 +197,7 @@ impl Prepare {
             None => {}
         }
         if plan == Plan::default() {
-            return Err(misuse("nothing is asked for: say --uncross, --clip, --extend, --cap or --remesh"));
+            return Err(misuse("nothing is asked for: say --uncross, --clip, --clip-end, --extend, --cap or --remesh"));
         }
         Ok(plan)
     }

@@ -16,7 +16,9 @@ use crate::pipeline::report::Report;
 use crate::pipeline::settings::Keep;
 use crate::prepare::Patch;
 use crate::prepare::check::Fate;
-use crate::prepare::notes::{Note, PrepareError};
+use crate::prepare::cuts::{Cuts, PlannedEnd};
+use crate::prepare::ends::EndPlane;
+use crate::prepare::notes::{Note, PrepareError, Reason};
 use crate::prepare::remesh::{Deviation as SolverDeviation, Quality};
 use crate::sharing::Digest;
 use crate::transfer::bulk;
@@ -115,6 +117,71 @@ pub struct SolverReady {
     pub id: u64,
     /// The surface, or why there is none.
     pub outcome: Result<Ready, PrepareError>,
+}
+
+/// What came of planning cuts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CutsPlanned {
+    /// That of the command.
+    pub id: u64,
+    /// The cuts, or why there are none.
+    pub outcome: Result<PlannedCuts, PrepareError>,
+}
+
+/// The ends of a surface, and what is cut off.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlannedCuts {
+    /// The surface.
+    #[serde(with = "surface")]
+    pub mesh: Arc<TriMesh>,
+    /// For each triangle 0 where it stays, or 1 more than the place of the end with which it goes.
+    #[serde(with = "bulk")]
+    pub of_triangle: Vec<u32>,
+    /// The ends.
+    pub ends: Vec<CutEnd>,
+    /// What cannot be cut as asked, but for what an end says itself.
+    pub notes: Vec<Note>,
+}
+
+/// An end of a vessel, and where it is cut.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CutEnd {
+    /// The centreline from the end inwards, as far as a plane may stand: x, y, z and radius, in mm.
+    pub way: Vec<[f32; 4]>,
+    /// The plane, where it is cut.
+    pub plane: Option<CutPlane>,
+    /// Why it cannot be cut as asked.
+    pub why: Option<Reason>,
+}
+
+/// A plane that cuts a vessel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CutPlane {
+    /// How far it is from the end along the centreline, in mm.
+    pub arc_mm: f64,
+    /// The middle of the section, in mm.
+    pub centre: [f32; 3],
+    /// Out of the vessel, of length 1.
+    pub normal: [f32; 3],
+    /// The radius of the circle of the section's area, in mm.
+    pub radius_mm: f32,
+}
+
+impl From<Cuts> for PlannedCuts {
+    fn from(Cuts { mesh, ends, of_triangle, notes }: Cuts) -> Self {
+        let plane = |plane: EndPlane| CutPlane {
+            arc_mm: plane.arc_mm,
+            centre: plane.centre.as_vec3().to_array(),
+            normal: plane.normal.as_vec3().to_array(),
+            radius_mm: plane.radius_mm as f32,
+        };
+        let end = |end: PlannedEnd| CutEnd {
+            way: end.way.iter().map(|place| place.at.as_vec3().extend(place.radius as f32).to_array()).collect(),
+            plane: end.plane.map(plane),
+            why: end.why,
+        };
+        Self { mesh: Arc::new(mesh), of_triangle, ends: ends.into_iter().map(end).collect(), notes }
+    }
 }
 
 /// A surface in patches, and what there is to say of it.

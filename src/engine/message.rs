@@ -6,8 +6,8 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::found::{
-    Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, FilesCompared, LevelArrays, Opened, Reduced,
-    SolverReady,
+    Averaged, Calibre, Compared, CutsPlanned, Deviated, Differed, FaultsFound, FilesCompared, LevelArrays, Opened,
+    Reduced, SolverReady,
 };
 use super::source::Source;
 use super::surfaces::surface;
@@ -182,6 +182,17 @@ pub enum Command {
         /// The change of a vessel's radius that counts as kept, in percent.
         tolerance_percent: f64,
     },
+    /// Find where the ends of a surface are cut, and what goes, in place of what was to be made ready or planned before.
+    /// Forgotten by a cancel.
+    PlanCuts {
+        /// Comes back with the answer; counted with the generations.
+        id: u64,
+        /// The surface.
+        #[serde(with = "surface")]
+        mesh: Arc<TriMesh>,
+        /// What is to be done to it.
+        plan: Plan,
+    },
 }
 
 /// Whose surface is compared with a file.
@@ -351,6 +362,8 @@ pub enum Event {
     },
     /// A surface was compared with another file, or cannot be.
     Beside(Box<FilesCompared>),
+    /// Where the ends of a surface are cut, or why none is.
+    CutsPlanned(Box<CutsPlanned>),
 }
 
 #[cfg(test)]
@@ -429,7 +442,8 @@ mod tests {
             },
             Command::Differ { id: 8, first: small.clone(), other: small },
             Command::Average { id: 9, passes: 3 },
-            Command::Prepare { id: 10, mesh: tube, plan: Plan::flow() },
+            Command::Prepare { id: 10, mesh: tube.clone(), plan: Plan::flow() },
+            Command::PlanCuts { id: 13, mesh: tube, plan: Plan::flow() },
             Command::WriteLevels { name: "c.glb".into(), axes: Axes::Lps, to: Axes::Ras },
             Command::WriteSolver { id: 10, name: "c.msh".into(), format: SolverFormat::Msh, names: vec!["w".into()] },
             Command::Cancel,
@@ -461,6 +475,7 @@ mod tests {
             "Cancelled",
             "Certified",
             "Compared",
+            "CutsPlanned",
             "Differed",
             "Faults",
             "Measured",

@@ -46,8 +46,8 @@ fn with_sample() -> Engine {
 
 pub use self::current::PATIENCE;
 pub use self::found::{
-    Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, FilesCompared, LevelArrays, Opened, Over, Ready,
-    Reduced, SolverReady, TwoFiles,
+    Averaged, Calibre, Compared, CutEnd, CutPlane, CutsPlanned, Deviated, Differed, FaultsFound, FilesCompared,
+    LevelArrays, Opened, Over, PlannedCuts, Ready, Reduced, SolverReady, TwoFiles,
 };
 pub use self::link::Link;
 pub use self::machine::{Machine, SLICE};

@@ -103,6 +103,7 @@ impl Engine {
             }
             Command::Average { id, passes } => self.averaging = Some(Averaging::new(id, passes)),
             Command::Prepare { id, mesh, plan } => self.preparing = Some(Preparing::new(id, mesh, plan)),
+            Command::PlanCuts { id, mesh, plan } => self.preparing = Some(Preparing::cuts(id, mesh, plan)),
             Command::WriteSolver { id, name, format, names } => {
                 let ready = self.prepared.as_ref().filter(|(of, _)| *of == id).ok_or_else(|| say!("errors-no-result"));
                 self.events.push_back(match ready.and_then(|(_, surface)| written(surface, names, format)) {

@@ -3,26 +3,46 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::found::{Ready, SolverReady};
+use super::found::{CutsPlanned, PlannedCuts, Ready, SolverReady};
 use super::message::{Event, Work};
 use super::progress::tell_progress;
 use crate::mesh::TriMesh;
 use crate::prepare::Patched;
-use crate::prepare::notes::PrepareError;
+use crate::prepare::cuts::cuts;
 use crate::prepare::prepare::{Plan, Prepared, prepare};
 use crate::prepare::write::SolverFormat;
 use crate::task::{Budget, Progress, Running};
 
-/// A surface on its way to a solver.
+/// A surface on its way to a solver, or the plan of its cuts.
 pub(super) struct Preparing {
     pub(super) id: u64,
-    running: Running<'static, Result<Prepared, PrepareError>>,
+    /// What is told of it, and the surface where there is one.
+    running: Running<'static, (Event, Option<Patched>)>,
 }
 
 impl Preparing {
     /// Nothing done yet; `id` is that of the command.
     pub(super) fn new(id: u64, mesh: Arc<TriMesh>, plan: Plan) -> Self {
-        Self { id, running: Running::new(|yielder| async move { prepare(&mesh, &plan, &yielder).await }) }
+        let running = Running::new(|yielder| async move {
+            let mut made = None;
+            let outcome = prepare(&mesh, &plan, &yielder).await.map(|found| {
+                let Prepared { surface, fate, notes, crossing, remeshed } = found;
+                let Patched { mesh, of_triangle, patches } = surface.clone();
+                made = Some(surface);
+                Ready { mesh: Arc::new(mesh), of_triangle, patches, fate, notes, crossing, remeshed }
+            });
+            (Event::Prepared(Box::new(SolverReady { id, outcome })), made)
+        });
+        Self { id, running }
+    }
+
+    /// The same of where its ends are cut.
+    pub(super) fn cuts(id: u64, mesh: Arc<TriMesh>, plan: Plan) -> Self {
+        let running = Running::new(|yielder| async move {
+            let outcome = cuts(&mesh, &plan, &yielder).await.map(PlannedCuts::from);
+            (Event::CutsPlanned(Box::new(CutsPlanned { id, outcome })), None)
+        });
+        Self { id, running }
     }
 
     /// Works for about `budget`; whether there is more to do. What comes of it is put into `made` and told.
@@ -32,28 +52,19 @@ impl Preparing {
         made: &mut Option<(u64, Patched)>,
         events: &mut VecDeque<Event>,
     ) -> bool {
-        let outcome = match self.running.advance(budget) {
+        match self.running.advance(budget) {
             Progress::Working(fraction) => {
                 tell_progress(Work::Preparing, fraction, events);
-                return true;
+                true
             }
-            Progress::Done(outcome) => outcome,
-        };
-        let outcome = outcome.map(|Prepared { surface, fate, notes, crossing, remeshed }| {
-            let ready = Ready {
-                mesh: Arc::new(surface.mesh.clone()),
-                of_triangle: surface.of_triangle.clone(),
-                patches: surface.patches.clone(),
-                fate,
-                notes,
-                crossing,
-                remeshed,
-            };
-            *made = Some((self.id, surface));
-            ready
-        });
-        events.push_back(Event::Prepared(Box::new(SolverReady { id: self.id, outcome })));
-        false
+            Progress::Done((event, surface)) => {
+                if let Some(surface) = surface {
+                    *made = Some((self.id, surface));
+                }
+                events.push_back(event);
+                false
+            }
+        }
     }
 }
 
@@ -73,6 +84,9 @@ mod tests {
     use crate::engine::{Command, Engine, with_sample};
     use crate::mesh::shapes::tube;
     use crate::prepare::PatchKind;
+    use crate::prepare::cuts::{ClipAt, Cut};
+    use crate::prepare::ends::Length;
+    use crate::prepare::notes::PrepareError;
 
     fn run(engine: &mut Engine) -> Vec<Event> {
         while engine.advance(Duration::from_millis(2)) {}
@@ -119,5 +133,26 @@ mod tests {
         assert!(engine.advance(Duration::ZERO));
         engine.handle(Command::Cancel);
         assert!(prepared(run(&mut engine)).is_none());
+    }
+
+    #[test]
+    fn cuts_are_planned_without_a_surface_being_made_ready() {
+        let mut engine = with_sample();
+        run(&mut engine);
+        let mesh = Arc::new(tube(48, 80, 40.0, |_| 2.0));
+        engine.handle(Command::Prepare { id: 7, mesh: mesh.clone(), plan: Plan::flow() });
+        run(&mut engine);
+        let cut = Cut { end_mm: [0.0, 0.0, 40.0], at: Some(ClipAt::Distance(Length::Mm(10.0))) };
+        engine.handle(Command::PlanCuts { id: 8, mesh, plan: Plan { cuts: vec![cut], ..Plan::flow() } });
+        let events = run(&mut engine);
+        let found =
+            events.iter().find_map(|event| if let Event::CutsPlanned(found) = event { Some(found) } else { None });
+        let found = found.filter(|found| found.id == 8).expect("an answer").outcome.as_ref().unwrap();
+        let at = |z: f32| found.ends.iter().find(|end| (end.way[0][2] - z).abs() < 2.5).unwrap();
+        assert!((at(40.0).plane.unwrap().centre[2] - 30.0).abs() < 0.1 && at(0.0).plane.unwrap().centre[2] < 1.0);
+        // What was made ready before can still be written.
+        let names = vec!["wall".to_owned(), "heart".to_owned(), "leg".to_owned()];
+        engine.handle(Command::WriteSolver { id: 7, name: "a.stl".to_owned(), format: SolverFormat::Stl, names });
+        assert!(matches!(run(&mut engine).as_slice(), [Event::Written { .. }]));
     }
 }

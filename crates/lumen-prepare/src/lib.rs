@@ -3,6 +3,7 @@
 pub mod cap;
 pub mod check;
 pub mod clip;
+pub mod cuts;
 pub mod ends;
 pub mod extend;
 pub mod folds;

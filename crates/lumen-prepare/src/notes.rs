@@ -72,6 +72,11 @@ messages! {
             /// Why not.
             why: Reason,
         } => { format!("The end at {} is not cut: {why}.", place(*at)) },
+        /// A cut is not made.
+        "solver-note-no-end" NoEndThere {
+            /// Where, in mm.
+            at: [f32; 3],
+        } => { format!("No vessel ends near {}: nothing is cut there.", place(*at)) },
         /// Nothing is extended or closed.
         "solver-note-no-ends" NoEnds => "No end was found to extend or close: cut the ends first.",
         /// Holes of the wall are filled.

@@ -1,16 +1,12 @@
 //! All of it in one call: the largest piece, uncross, clip, extend, cap, remesh, check.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::cap::{CapKind, cap};
 use super::check::{Fate, check};
-use super::clip::{Clipped, clip};
-use super::ends::{
-    EndError, EndPlane, Length, OpenEnd, check_surface, names, open_ends, place, planes_of_uneven_openings, propose,
-};
+use super::cuts::{ClipAt, Cut, cut_at, planned};
+use super::ends::{EndPlane, Length, OpenEnd, check_surface, names, open_ends, planes_of_uneven_openings};
 use super::extend::{ExtendError, Extended, extend};
 use super::notes::{Note, PrepareError, Reason};
 use super::remesh::{Deviation, Quality, Remeshed, Sizing, remesh_in_slices};
@@ -19,11 +15,8 @@ use super::{Patch, PatchKind, Patched};
 use lumen_mesh::mending::fill::fill;
 use lumen_mesh::mending::split::split;
 use lumen_mesh::task::Yielder;
-use lumen_mesh::{
-    FlatCap, SurfaceIndex, Topology, TriMesh, Vec3, boundary_loops, compacted, components, flat_caps, without_caps,
-};
+use lumen_mesh::{FlatCap, Topology, TriMesh, Vec3, boundary_loops, compacted, components, flat_caps, without_caps};
 use lumen_vessel::width::widths;
-use lumen_vessel::{End, Tree};
 
 /// An extension that would run into something is as long as this part of what is free.
 const OF_FREE: f64 = 0.9;
@@ -34,24 +27,16 @@ const FLAT: f64 = 0.011;
 /// Times for each end that extensions are tried.
 const ROUNDS: usize = 4;
 
-/// Where vessels are cut.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ClipAt {
-    /// As near to each end as the vessel is round there.
-    Round,
-    /// At this distance from each end.
-    Distance(Length),
-}
-
 /// What is done to a surface, from top to bottom.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Plan {
     /// Whether triangles that cross are taken apart first.
     pub uncross: bool,
     /// Where ends are cut square to the vessel; `None` leaves them.
     pub clip: Option<ClipAt>,
+    /// Ends that are cut elsewhere, or left.
+    pub cuts: Vec<Cut>,
     /// How long the extensions are; `None` for none.
     pub extend: Option<Length>,
     /// How ends are closed; `None` leaves them open.
@@ -64,7 +49,13 @@ impl Plan {
     /// What flow solvers ask for: ends cut where they are round, extended by five radii and closed evenly, 12 edges around.
     pub fn flow() -> Self {
         let (clip, extend) = (Some(ClipAt::Round), Some(Length::Radii(5.0)));
-        Self { uncross: true, clip, extend, cap: Some(CapKind::Planar), remesh: Some(Sizing::default()) }
+        let (cap, remesh) = (Some(CapKind::Planar), Some(Sizing::default()));
+        Self { uncross: true, clip, cuts: Vec::new(), extend, cap, remesh }
+    }
+
+    /// Whether any end is cut.
+    pub fn clips(&self) -> bool {
+        self.clip.is_some() || self.cuts.iter().any(|cut| cut.at.is_some())
     }
 
     /// Refuses lengths that make no sense.
@@ -73,11 +64,11 @@ impl Plan {
     /// [`PrepareError::Sizes`].
     pub fn check(&self) -> Result<(), PrepareError> {
         let is_length = |length: Length| length.mm(1.0).is_some();
-        let clip = match self.clip {
-            Some(ClipAt::Distance(length)) => Some(length),
-            Some(ClipAt::Round) | None => None,
-        };
-        let are_right = clip.is_none_or(is_length) && self.extend.is_none_or(is_length);
+        let all = self.cuts.iter().map(|cut| cut.at).chain([self.clip]);
+        let are_places = self.cuts.iter().flat_map(|cut| cut.end_mm).all(f64::is_finite);
+        let are_right = are_places
+            && all.flatten().all(|at| if let ClipAt::Distance(length) = at { is_length(length) } else { true })
+            && self.extend.is_none_or(is_length);
         self.remesh.as_ref().map_or(Ok(()), Sizing::check)?;
         if are_right { Ok(()) } else { Err(PrepareError::Sizes) }
     }
@@ -120,8 +111,8 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     } else {
         (mesh, None)
     };
-    if let Some(at) = plan.clip {
-        mesh = clipped(mesh, at, &mut notes, &yielder.part(0.3..0.5)).await?;
+    if plan.clips() {
+        mesh = clipped(mesh, plan, &mut notes, &yielder.part(0.3..0.5)).await?;
     }
     yielder.rest(0.5).await;
     let mut surface = if plan.extend.is_some() || plan.cap.is_some() {
@@ -169,72 +160,25 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
 }
 
 /// The surface cut at its ends, as many of them as can be.
-async fn clipped(mesh: TriMesh, at: ClipAt, notes: &mut Vec<Note>, yielder: &Yielder) -> Result<TriMesh, PrepareError> {
-    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-    let index = Arc::new(SurfaceIndex::new(&mesh.positions, &mesh.triangles));
-    let tree = Tree::with_topology_in_slices(&mesh, &topology, index, &yielder.part(0.0..0.8)).await?;
-    let planes = match at {
-        ClipAt::Round => {
-            let proposal = propose(&mesh, &tree)?;
-            notes.extend(proposal.refused.iter().map(|error| not_cut(&tree, error)));
-            proposal.planes
-        }
-        ClipAt::Distance(distance) => {
-            let mut planes = Vec::new();
-            for branch in tree.branches() {
-                for at_end in [false, true].into_iter().filter(|&at| branch.ends[usize::from(at)] != End::Joint) {
-                    match place(&mesh, &tree, branch.id, at_end, distance) {
-                        Ok(plane) => planes.push(plane),
-                        Err(error) => notes.push(not_cut(&tree, &error)),
-                    }
-                }
-            }
-            planes
-        }
-    };
-    let mesh = cut_at(mesh, &planes, notes);
+async fn clipped(
+    mesh: TriMesh,
+    plan: &Plan,
+    notes: &mut Vec<Note>,
+    yielder: &Yielder,
+) -> Result<TriMesh, PrepareError> {
+    let (ends, strays) = planned(&mesh, plan, &yielder.part(0.0..0.8)).await?;
+    notes.extend(strays);
+    notes.extend(ends.iter().filter_map(|end| Some(end.not_cut(end.why.clone()?))));
+    let planes: Vec<EndPlane> = ends.into_iter().filter_map(|end| end.plane).collect();
+    let (mesh, _) = cut_at(mesh, &planes, notes);
     // An end that is too near a fork for such a plane is cut just inside of its rim, where that is uneven.
-    let planes = planes_of_uneven_openings(&mesh)?;
-    Ok(cut_at(mesh, &planes, notes))
-}
-
-/// What is told of an end that has no plane.
-fn not_cut(tree: &Tree, error: &EndError) -> Note {
-    let at = error.end().and_then(|(branch, at_end)| {
-        let points = &tree.branches().get(branch as usize)?.points;
-        Some(if at_end { points.last() } else { points.first() }?.at)
-    });
-    Note::NotCut { at: at.unwrap_or_default().as_vec3().to_array(), why: error.into() }
-}
-
-/// The surface cut at those planes that cut it.
-fn cut_at(mesh: TriMesh, planes: &[EndPlane], notes: &mut Vec<Note>) -> TriMesh {
-    let (first, error) = match (clip(&mesh, planes), planes) {
-        (_, []) => return mesh,
-        (Ok(Clipped { mesh, .. }), _) => return mesh,
-        (Err(error), [first, ..]) => (first, error),
-    };
-    let failed = error.end().filter(|&end| end < planes.len());
-    match failed {
-        // The others are cut without it.
-        Some(failed) => {
-            notes.push(Note::NotCut { at: planes[failed].centre.as_vec3().to_array(), why: (&error).into() });
-            let mesh = cut_at(mesh, &planes[..failed], notes);
-            cut_at(mesh, &planes[failed + 1..], notes)
-        }
-        // It is one of them: each by itself shows which.
-        None if planes.len() > 1 => {
-            planes.iter().fold(mesh, |mesh, plane| cut_at(mesh, std::slice::from_ref(plane), notes))
-        }
-        None => {
-            notes.push(Note::NotCut { at: first.centre.as_vec3().to_array(), why: (&error).into() });
-            mesh
-        }
-    }
+    let leaves = plan.cuts.iter().any(|cut| cut.at.is_none()) || plan.clip.is_none();
+    let planes = if leaves { Vec::new() } else { planes_of_uneven_openings(&mesh)? };
+    Ok(cut_at(mesh, &planes, notes).0)
 }
 
 /// The largest piece of a surface, and how many others there were.
-fn largest_piece(mesh: TriMesh) -> (TriMesh, usize) {
+pub(crate) fn largest_piece(mesh: TriMesh) -> (TriMesh, usize) {
     let pieces = components(mesh.positions.len(), &mesh.triangles);
     match pieces.largest().filter(|_| pieces.count() > 1) {
         Some(largest) => (mesh.filtered(|t| pieces.of_triangle[t] == largest), pieces.count() - 1),

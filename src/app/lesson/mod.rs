@@ -181,9 +181,9 @@ impl Lessons {
         asked.extend(parts.into_iter().filter(|(show, _)| shows(*show)).map(|(_, part)| Ask::Unfold(part)));
         self.waiting.clear();
         self.waiting.extend(view.map(Ask::View));
-        let is_made = now.state.preparation.is_open;
+        let is_made = now.state.preparation.shown == Some(solver::Shown::Made);
         if is_made && !shows(Show::Solver) {
-            asked.push(Ask::Solver(solver::Action::Show(false)));
+            asked.push(Ask::Solver(solver::Action::Show(None)));
         } else if !is_made && shows(Show::Solver) {
             asked.push(Ask::Solver(solver::Action::Set(Plan::flow())));
             self.waiting.push_back(Ask::Solver(solver::Action::Prepare));

@@ -211,7 +211,9 @@ impl LumenApp {
             Action::SaveAxes(axes) => state.written_axes = axes,
             Action::Set(settings) => {
                 // Who changes the level looks at the level.
-                state.preparation.is_open &= *settings == state.settings;
+                if *settings != state.settings {
+                    state.preparation.shown = None;
+                }
                 state.settings = *settings;
             }
             Action::Undo => state.undo(self.platform.link()),

@@ -8,27 +8,27 @@ use crate::mesh::Vec3;
 use crate::render::Camera;
 
 /// A view to draw over.
-pub(super) struct Canvas<'a> {
-    pub(super) ui: &'a Ui,
+pub(in crate::app) struct Canvas<'a> {
+    pub(in crate::app) ui: &'a Ui,
     /// The whole view.
-    pub(super) rect: Rect,
-    pub(super) camera: &'a Camera,
-    pub(super) painter: Painter,
+    pub(in crate::app) rect: Rect,
+    pub(in crate::app) camera: &'a Camera,
+    pub(in crate::app) painter: Painter,
 }
 
 impl<'a> Canvas<'a> {
     /// Over the part of the view in `rect` that is in `part`.
-    pub(super) fn new(ui: &'a Ui, rect: Rect, part: Rect, camera: &'a Camera) -> Self {
+    pub(in crate::app) fn new(ui: &'a Ui, rect: Rect, part: Rect, camera: &'a Camera) -> Self {
         Self { ui, rect, camera, painter: ui.painter_at(rect.intersect(part)) }
     }
 
     /// Where a place is in the window; `None` behind the eye.
-    pub(super) fn at(&self, place: Vec3) -> Option<Pos2> {
+    pub(in crate::app) fn at(&self, place: Vec3) -> Option<Pos2> {
         seen(place, self.camera, self.rect)
     }
 
     /// A line through places, on a wider one of the background, so that it stands out of any colour.
-    pub(super) fn line(&self, places: &[Vec3], is_closed: bool, width: f32, colour: Color32) {
+    pub(in crate::app) fn line(&self, places: &[Vec3], is_closed: bool, width: f32, colour: Color32) {
         let Some(mut points) = places.iter().map(|&place| self.at(place)).collect::<Option<Vec<Pos2>>>() else {
             return;
         };
@@ -41,14 +41,14 @@ impl<'a> Canvas<'a> {
     }
 
     /// A dot at a place.
-    pub(super) fn dot(&self, place: Vec3, colour: Color32) {
+    pub(in crate::app) fn dot(&self, place: Vec3, colour: Color32) {
         if let Some(at) = self.at(place) {
             self.painter.circle(at, 3.5, colour, Stroke::new(1.5, self.ui.visuals().window_fill));
         }
     }
 
     /// A circle of so many mm around a place.
-    pub(super) fn circle(&self, middle: Vec3, radius_mm: f32, width: f32, colour: Color32) {
+    pub(in crate::app) fn circle(&self, middle: Vec3, radius_mm: f32, width: f32, colour: Color32) {
         let right = self.camera.rotation * Vec3::X;
         if let (Some(at), Some(side)) = (self.at(middle), self.at(middle + right * radius_mm)) {
             let halo = self.ui.visuals().window_fill.gamma_multiply(0.8);
@@ -59,7 +59,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// Words beside a place, on a plate; none where there is no room for them.
-    pub(super) fn label(&self, place: Vec3, words: &str, colour: Color32) {
+    pub(in crate::app) fn label(&self, place: Vec3, words: &str, colour: Color32) {
         let Some(at) = self.at(place) else { return };
         let text = self.painter.layout_no_wrap(words.to_owned(), FontId::proportional(12.0), colour);
         let own = Align2::LEFT_CENTER.anchor_size(at + vec2(12.0, -10.0), text.size());

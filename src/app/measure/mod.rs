@@ -4,7 +4,7 @@
 //! The measures themselves are part of what undo goes back to ([`State`]); here is what a user is about to do.
 
 pub(super) mod action;
-mod canvas;
+pub(super) mod canvas;
 mod cap;
 mod clip;
 mod fill;

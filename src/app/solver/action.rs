@@ -1,5 +1,6 @@
 //! What is asked of the step that makes a level ready for a solver.
 
+use super::preparation::Shown;
 use crate::prepare::prepare::Plan;
 use crate::prepare::write::SolverFormat;
 
@@ -10,8 +11,8 @@ pub enum Action {
     Set(Plan),
     /// Make the level that is shown ready.
     Prepare,
-    /// Show what was made, or the level again.
-    Show(bool),
+    /// Show what was made, or the cuts, or the level again.
+    Show(Option<Shown>),
     /// Call a patch something else: its place, and its name.
     Rename(usize, String),
     /// Save what was made.

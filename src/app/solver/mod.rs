@@ -1,9 +1,11 @@
 //! The step that makes a level ready for a solver, and the views of what it made.
 //!
 //! - [`Preparation`]: what is done, and what came of it; [`Action`]: what is asked of it.
-//! - `step`: its controls, below the reduction; `view`: what was made, in place of the level.
+//! - `step`: its controls, below the reduction; `cuts`: those of single ends, in the list and in the view; `view`: what was
+//!   made, or what is cut off, in place of the level.
 
 pub(super) mod action;
+mod cuts;
 pub(super) mod preparation;
 mod step;
 mod view;
@@ -11,7 +13,7 @@ mod view;
 use egui::Ui;
 
 pub use self::action::Action;
-pub use self::preparation::Preparation;
+pub use self::preparation::{Preparation, Shown};
 pub(super) use self::view::SolverView;
 use super::action::Action as Ask;
 use super::filling::Filling;
@@ -32,7 +34,7 @@ impl Panel for SolverView {
     }
 
     fn is_there(&self, state: &State, _: Beside) -> bool {
-        state.preparation.is_open
+        state.preparation.shown.is_some()
     }
 
     fn mode(&self) -> Option<Mode> {
@@ -40,7 +42,7 @@ impl Panel for SolverView {
     }
 
     fn escape(&self, now: Now<'_>, layer: Layer) -> Option<Ask> {
-        (layer == Layer::Open && now.mode == Mode::Solver).then_some(Ask::Solver(Action::Show(false)))
+        (layer == Layer::Open && now.mode == Mode::Solver).then_some(Ask::Solver(Action::Show(None)))
     }
 
     /// The steps of the method stand beside it, its own among them.
@@ -52,9 +54,10 @@ impl Panel for SolverView {
         match action {
             Action::Set(plan) => state.preparation.plan = plan,
             Action::Prepare => state.prepare_for_solver(acting.platform.link()),
-            Action::Show(is_open) => {
+            Action::Show(shown) => {
                 state.leave_modes();
-                state.preparation.is_open = is_open && state.preparation.made.is_some();
+                let is_there = shown != Some(Shown::Made) || state.preparation.made.is_some();
+                state.preparation.shown = shown.filter(|_| is_there);
             }
             Action::Rename(place, name) => state.preparation.rename(place, &name),
             Action::Save(format) => state.save_for_solver(format, acting.platform.link()),
@@ -77,13 +80,12 @@ impl Filling for SolverView {
     }
 
     fn release(&mut self, state: &State, views: &mut Views) {
-        if !state.preparation.is_open {
+        if state.preparation.shown.is_none() {
             self.leave(views);
         }
     }
 
     fn fill(&mut self, ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) -> Vec<Ask> {
-        self.show_made(ui, state, views, is_narrow);
-        Vec::new()
+        self.show_shown(ui, state, views, is_narrow).map(Ask::Solver).into_iter().collect()
     }
 }

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use crate::app::document::Revision;
-use crate::engine::{Ready, SolverReady};
+use crate::engine::{CutsPlanned, PlannedCuts, Ready, SolverReady};
 use crate::mesh::TriMesh;
+use crate::prepare::cuts::{ClipAt, Cut};
 use crate::prepare::notes::PrepareError;
 use crate::prepare::prepare::Plan;
 use crate::render::ColourMap;
@@ -26,6 +27,36 @@ pub struct Made {
     pub ends: Arc<Vec<f32>>,
 }
 
+/// Where the ends of a level are cut.
+#[derive(Debug)]
+pub struct Planned {
+    /// What it was found by.
+    pub(in crate::app) of: CutsOf,
+    /// What the engine found.
+    pub found: PlannedCuts,
+    /// The surface as it is drawn, as that of [`Made`]: what goes with an end is a patch.
+    pub mesh: Arc<TriMesh>,
+    /// For each vertex of that the number of the end that it goes with, from 0; no number where it stays.
+    pub ends: Arc<Vec<f32>>,
+}
+
+/// Which cuts of which level.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::app) struct CutsOf {
+    level: Level,
+    clip: Option<ClipAt>,
+    cuts: Vec<Cut>,
+}
+
+/// What is shown in place of the level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// Where its ends are cut.
+    Cuts,
+    /// What was made of it.
+    Made,
+}
+
 /// Which level of which document.
 pub(in crate::app) type Level = (u64, u64, u64);
 
@@ -39,10 +70,14 @@ pub(in crate::app) fn level(revision: Revision) -> Level {
 pub struct Preparation {
     /// What is done to a level.
     pub plan: Plan,
-    /// Whether what was made is shown in place of the level.
-    pub is_open: bool,
+    /// What is shown in place of the level.
+    pub shown: Option<Shown>,
     /// What the engine works on: the number of the command, and the level.
     asked: Option<(u64, Level)>,
+    /// The cuts that it is to find.
+    asked_cuts: Option<(u64, CutsOf)>,
+    /// Those that it found last.
+    pub planned: Option<Planned>,
     /// What it made last.
     pub made: Option<Made>,
     /// Why it could not.
@@ -51,29 +86,64 @@ pub struct Preparation {
 
 impl Default for Preparation {
     fn default() -> Self {
-        Self { plan: Plan::flow(), is_open: false, asked: None, made: None, failure: None }
+        let (shown, asked, asked_cuts) = (None, None, None);
+        Self { plan: Plan::flow(), shown, asked, asked_cuts, planned: None, made: None, failure: None }
     }
 }
 
 impl Preparation {
-    /// Whether the engine works on it.
+    /// Whether the engine makes a level ready.
     pub fn is_busy(&self) -> bool {
         self.asked.is_some()
     }
 
-    /// Notes what was asked for under this number.
+    /// Whether the engine works on it, or on its cuts.
+    pub(in crate::app) fn is_worked_on(&self) -> bool {
+        self.is_busy() || self.asked_cuts.is_some()
+    }
+
+    /// Notes what was asked for under this number, in place of all before.
     pub(in crate::app) fn ask(&mut self, id: u64, of: Level) {
-        (self.asked, self.failure) = (Some((id, of)), None);
+        (self.asked, self.asked_cuts, self.failure) = (Some((id, of)), None, None);
+    }
+
+    /// Notes that the cuts of this level are asked for under this number, where they are to be shown and are not known.
+    /// What the engine works on is awaited first. Whether they are asked for.
+    pub(in crate::app) fn ask_cuts(&mut self, id: u64, level: Level) -> bool {
+        let of = CutsOf { level, clip: self.plan.clip, cuts: self.plan.cuts.clone() };
+        let is_known = self.planned.as_ref().is_some_and(|planned| planned.of == of);
+        let is_wanted = self.shown == Some(Shown::Cuts) && !self.is_worked_on() && !is_known;
+        if is_wanted {
+            (self.asked_cuts, self.failure) = (Some((id, of)), None);
+        }
+        is_wanted
     }
 
     /// Waits for nothing more. Whether it did.
     pub(in crate::app) fn give_up(&mut self) -> bool {
+        if self.asked_cuts.take().is_some() && self.shown == Some(Shown::Cuts) {
+            // They would be asked for again.
+            self.shown = None;
+        }
         self.asked.take().is_some()
     }
 
-    /// Forgets all but the plan: another surface is open.
+    /// Forgets all but the plan, without the cuts of single ends: another surface is open.
     pub(in crate::app) fn leave_surface(&mut self) {
-        *self = Self { plan: self.plan, ..Self::default() };
+        let plan = Plan { cuts: Vec::new(), ..std::mem::take(&mut self.plan) };
+        *self = Self { plan, ..Self::default() };
+    }
+
+    /// Hears where the ends are cut. An answer to what is no longer asked for is passed over.
+    pub fn receive_cuts(&mut self, CutsPlanned { id, outcome }: CutsPlanned) {
+        let Some((_, of)) = self.asked_cuts.take_if(|(asked, _)| *asked == id) else { return };
+        match outcome {
+            Ok(found) => {
+                let (mesh, ends) = drawn(&found.mesh, &found.of_triangle, found.ends.len() + 1);
+                self.planned = Some(Planned { of, found, mesh: Arc::new(mesh), ends: Arc::new(ends) });
+            }
+            Err(error) => (self.failure, self.shown) = (Some(error), None),
+        }
     }
 
     /// Hears what came of it, which is then shown. An answer to what is no longer asked for is passed over.
@@ -81,10 +151,10 @@ impl Preparation {
         let Some((_, of)) = self.asked.take_if(|(asked, _)| *asked == id) else { return };
         match outcome {
             Ok(ready) => {
-                let (mesh, ends) = drawn(&ready);
-                let plan = self.plan;
+                let (mesh, ends) = drawn(&ready.mesh, &ready.of_triangle, ready.patches.len());
+                let plan = self.plan.clone();
                 self.made = Some(Made { id, of, plan, ready, mesh: Arc::new(mesh), ends: Arc::new(ends) });
-                self.is_open = true;
+                self.shown = Some(Shown::Made);
             }
             Err(error) => self.failure = Some(error),
         }
@@ -107,9 +177,9 @@ impl Preparation {
     }
 }
 
-/// A surface whose patches have no vertex in common, and the number of the end at each vertex.
-fn drawn(ready: &Ready) -> (TriMesh, Vec<f32>) {
-    let Ready { mesh, of_triangle, patches, .. } = ready;
+/// A surface of so many patches, the wall first, of which no two have a vertex in common, and the number of the end at each
+/// vertex.
+fn drawn(mesh: &TriMesh, of_triangle: &[u32], patches: usize) -> (TriMesh, Vec<f32>) {
     let (mut split, mut ends) = (TriMesh::default(), Vec::new());
     let mut order: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
     order.sort_by_key(|&t| of_triangle[t as usize]);
@@ -121,7 +191,7 @@ fn drawn(ready: &Ready) -> (TriMesh, Vec<f32>) {
             if known.0 != patch {
                 *known = (patch, split.positions.len() as u32);
                 split.positions.push(mesh.positions[v as usize]);
-                let is_end = patch > 0 && (patch as usize) < patches.len();
+                let is_end = patch > 0 && (patch as usize) < patches;
                 ends.push(if is_end { (patch - 1) as f32 } else { 2.0 * ColourMap::UNKNOWN });
             }
             known.1
@@ -149,7 +219,7 @@ mod tests {
     #[test]
     fn each_patch_is_drawn_with_its_own_vertices_and_the_same_area() {
         let ready = ready();
-        let (mesh, ends) = drawn(&ready);
+        let (mesh, ends) = drawn(&ready.mesh, &ready.of_triangle, ready.patches.len());
         assert_eq!((mesh.triangles.len(), ends.len()), (ready.mesh.triangles.len(), mesh.positions.len()));
         for (place, patch) in ready.patches.iter().enumerate() {
             let is_of = |t: &usize| match place {
@@ -168,7 +238,7 @@ mod tests {
         preparation.receive(SolverReady { id: 4, outcome: Ok(ready()) });
         assert!(preparation.is_busy() && preparation.made.is_none());
         preparation.receive(SolverReady { id: 5, outcome: Ok(ready()) });
-        assert!(preparation.is_open && !preparation.is_busy());
+        assert!(preparation.shown == Some(Shown::Made) && !preparation.is_busy());
         preparation.rename(1, " left heart ");
         preparation.rename(2, "left_heart");
         preparation.rename(0, "");
@@ -180,6 +250,6 @@ mod tests {
         assert!(preparation.failure == Some(PrepareError::Empty) && preparation.made.is_some());
         assert!(!preparation.give_up());
         preparation.leave_surface();
-        assert!(preparation.made.is_none() && !preparation.is_open);
+        assert!(preparation.made.is_none() && preparation.shown.is_none());
     }
 }

@@ -5,7 +5,8 @@ use std::ops::RangeInclusive;
 use egui::{Button, ComboBox, DragValue, Grid, RichText, Role, Sense, TextEdit, Ui, vec2};
 
 use super::action::Action;
-use super::preparation::{Made, Preparation, level};
+use super::cuts;
+use super::preparation::{Made, Preparation, Shown, level};
 use super::view::end_colour;
 use crate::app::action::Action as Ask;
 use crate::app::assist::name;
@@ -17,8 +18,9 @@ use crate::language::{decimal, grouped, tell};
 use crate::prepare::Patch;
 use crate::prepare::cap::CapKind;
 use crate::prepare::check::Finding;
+use crate::prepare::cuts::ClipAt;
 use crate::prepare::ends::Length;
-use crate::prepare::prepare::{ClipAt, Plan};
+use crate::prepare::prepare::Plan;
 use crate::prepare::remesh::Sizing;
 use crate::prepare::write::SolverFormat;
 use crate::say;
@@ -33,7 +35,7 @@ const AROUND: f64 = 8.0;
 /// Shows the step.
 pub(super) fn show(ui: &mut Ui, state: &State, asked: &mut Vec<Ask>) {
     let preparation = &state.preparation;
-    let mut plan = preparation.plan;
+    let mut plan = preparation.plan.clone();
     let mut of_step = Vec::new();
     let (title, what) = (say!("solver-title"), say!("solver-does"));
     let summary = preparation.made.as_ref().map(|made| readiness(made.ready.fate.is_ready()));
@@ -42,6 +44,9 @@ pub(super) fn show(ui: &mut Ui, state: &State, asked: &mut Vec<Ask>) {
         ends(ui, &mut plan);
         triangles(ui, &title, &mut plan);
         buttons(ui, state, &mut of_step);
+        if let (Some(planned), Some(Shown::Cuts)) = (&preparation.planned, preparation.shown) {
+            cuts::list(ui, preparation, planned, asked);
+        }
         if let Some(error) = &preparation.failure {
             warning(ui, &say!("solver-failed", why = tell(error)));
         }
@@ -154,7 +159,7 @@ fn in_radii(ui: &mut Ui, label: &str, range: RangeInclusive<f64>, radii: &mut f6
 }
 
 fn buttons(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
-    let Preparation { made, is_open, .. } = &state.preparation;
+    let Preparation { made, shown, .. } = &state.preparation;
     let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
     ui.horizontal_wrapped(|ui| {
         let can_prepare = has_level && !state.preparation.is_busy();
@@ -162,10 +167,15 @@ fn buttons(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
         if button.on_hover_text(say!("solver-prepare-help")).clicked() {
             asked.push(Action::Prepare);
         }
-        if made.is_some() {
-            let label = if *is_open { say!("solver-show-level") } else { say!("solver-show-made") };
-            if ui.button(label).clicked() {
-                asked.push(Action::Show(!is_open));
+        let others = [
+            (Shown::Made, made.is_some(), say!("solver-show-made"), ""),
+            (Shown::Cuts, has_level, say!("solver-show-cuts"), &*say!("solver-show-cuts-help")),
+        ];
+        for (view, is_there, label, help) in others {
+            let is_shown = *shown == Some(view);
+            let label = if is_shown { say!("solver-show-level") } else { label };
+            if is_there && ui.button(label).on_hover_text(help).clicked() {
+                asked.push(Action::Show((!is_shown).then_some(view)));
             }
         }
     });
@@ -208,7 +218,7 @@ fn result(ui: &mut Ui, preparation: &Preparation, made: &Made, asked: &mut Vec<A
             }
         }
     });
-    if preparation.is_open {
+    if preparation.shown == Some(Shown::Made) {
         remark(ui, &say!("solver-names"));
     }
 }
@@ -223,7 +233,7 @@ fn of_fate(ui: &mut Ui, finding: &Finding, made: &Made, asked: &mut Vec<Ask>) {
     if go.clicked() {
         let radius = made.ready.patches.iter().skip(1).map(Patch::radius_mm).fold(f64::INFINITY, f64::min);
         let height_mm = if radius.is_finite() { (AROUND * radius) as f32 } else { 10.0 };
-        asked.push(Ask::Solver(Action::Show(true)));
+        asked.push(Ask::Solver(Action::Show(Some(Shown::Made))));
         asked.push(Ask::GoTo { at_mm: at.map(|x| x as f32), height_mm, label: text });
     }
 }

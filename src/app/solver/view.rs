@@ -1,15 +1,19 @@
-//! What was made ready for a solver: shaded, each end in a colour and with its name, and as edges.
+//! What was made ready for a solver, or what is cut off before: shaded, each end in a colour and with its name, and as edges.
+
+use std::sync::Arc;
 
 use egui::{Align2, Color32, Rect, Role, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 
-use super::preparation::Made;
+use super::action::Action;
+use super::cuts;
+use super::preparation::{Preparation, Shown};
 use crate::app::compare::{CompareScene, Shot};
 use crate::app::graphics_error::surface_error;
 use crate::app::places::{pixels, seen};
 use crate::app::state::State;
 use crate::app::views::{NO_MEMORY, Views};
 use crate::app::{arrays, halo, overlay, theme};
-use crate::mesh::Vec3;
+use crate::mesh::{TriMesh, Vec3};
 use crate::render::{Camera, Look, Style, label_colour};
 use crate::say;
 
@@ -50,20 +54,42 @@ impl SolverView {
         self.is_refused |= self.scene.take().is_some();
     }
 
-    /// Shows what was made in what is left of `ui`: side by side, one above the other where that is narrow.
-    pub(super) fn show_made(&mut self, ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) {
-        let Some(made) = &state.preparation.made else { return };
+    /// Shows what was made, or the cuts, in what is left of `ui`: side by side, one above the other where that is narrow.
+    /// What the hand asks for there.
+    pub(super) fn show_shown(
+        &mut self,
+        ui: &mut Ui,
+        state: &State,
+        views: &mut Views,
+        is_narrow: bool,
+    ) -> Option<Action> {
+        let preparation = &state.preparation;
+        let shown = match preparation.shown? {
+            Shown::Made => {
+                preparation.made.as_ref().map(|made| (&made.mesh, &made.ends, made.ready.mesh.triangles.len()))
+            }
+            Shown::Cuts => {
+                let planned = preparation.planned.as_ref();
+                planned.map(|planned| (&planned.mesh, &planned.ends, planned.found.mesh.triangles.len()))
+            }
+        };
+        let Some((mesh, ends, triangles)) = shown else {
+            // The engine looks for the cuts.
+            write(ui, ui.max_rect(), ui.max_rect().center(), Align2::CENTER_CENTER, &say!("solver-work"));
+            return None;
+        };
+        // Extensions reach beyond what the views showed.
+        let fitted_to = preparation.made.as_ref().filter(|_| preparation.shown == Some(Shown::Made));
         if let (None, false, Some(device)) = (&self.scene, self.is_refused, &self.device) {
             self.scene = Some(CompareScene::new(device));
         }
         if let Some(scene) = &mut self.scene {
-            scene.keep_only(&std::iter::once(&made.mesh));
+            scene.keep_only(&std::iter::once(mesh));
         }
         let area = ui.available_rect_before_wrap();
         let (first, second) =
             if is_narrow { area.split_top_bottom_at_fraction(0.5) } else { area.split_left_right_at_fraction(0.5) };
-        // Extensions reach beyond what the views showed.
-        if self.fitted.is_none_or(|(id, ..)| id != made.id) {
+        if let Some(made) = fitted_to.filter(|made| self.fitted.is_none_or(|(id, ..)| id != made.id)) {
             let before = self.fitted.map_or(views.camera, |(_, before, _)| before);
             views.camera.fit(&made.mesh.bounds(), first.width() / first.height().max(1.0));
             self.fitted = Some((made.id, before, views.camera));
@@ -71,27 +97,41 @@ impl SolverView {
         let (document, keep) = (state.document.as_ref(), state.settings.keep);
         let shaded: &'static [Look] = if views.options.flat { &[Look::Flat] } else { &[Look::Shaded] };
         let titles = [say!("views-shaded-title"), say!("views-wireframe-title")];
-        let count = say!("solver-triangles", count = made.ready.mesh.triangles.len());
+        let count = say!("solver-triangles", count = triangles);
+        let mut asked = None;
         let below = format!("{}: {count}", say!("solver-title"));
         for (i, (rect, looks)) in [(first, shaded), (second, &[Look::Wireframe][..])].into_iter().enumerate() {
             let rect = rect.shrink(0.5);
             let picture = ui.interact(rect, ui.scope_id().with(("picture", i)), Sense::click_and_drag());
             let label = format!("{}: {}", titles[i], say!("solver-title"));
             picture.widget_info(|| WidgetInfo::labeled(Role::Image, true, &label));
-            self.picture(ui, i, rect, made, looks, views);
+            self.picture(ui, i, rect, (mesh, ends), looks, views);
             write(ui, rect, rect.min + vec2(12.0, 12.0), Align2::LEFT_TOP, &titles[i]);
             write(ui, rect, rect.min + vec2(12.0, 30.0), Align2::LEFT_TOP, &below);
             let axes = document.map(|document| document.import.axes).unwrap_or_default();
             overlay::scale_and_axes(ui, rect, &views.camera, axes);
-            if i == 0 {
-                names(ui, rect, made, views);
+            match (preparation.shown, &preparation.planned) {
+                (Some(Shown::Cuts), Some(planned)) => {
+                    asked = asked.or(cuts::rings(ui, i, rect, &views.camera, preparation, planned));
+                }
+                _ if i == 0 => names(ui, rect, preparation, views),
+                _ => {}
             }
             views.steer(ui, &picture, 1, document, keep);
             views.take_shape(rect, 1, document, keep);
         }
+        asked
     }
 
-    fn picture(&mut self, ui: &Ui, index: usize, rect: Rect, made: &Made, looks: &'static [Look], views: &Views) {
+    fn picture(
+        &mut self,
+        ui: &Ui,
+        index: usize,
+        rect: Rect,
+        (mesh, ends): (&Arc<TriMesh>, &Arc<Vec<f32>>),
+        looks: &'static [Look],
+        views: &Views,
+    ) {
         let style = Style {
             raking: views.options.raking,
             occlusion: views.options.occlusion,
@@ -101,7 +141,7 @@ impl SolverView {
         };
         let shot = Shot { camera: views.camera, size: pixels(ui, rect), looks, style };
         let failure = match &mut self.scene {
-            Some(scene) => match scene.draw(index, &made.mesh, Some(&made.ends), &shot) {
+            Some(scene) => match scene.draw(index, mesh, Some(ends), &shot) {
                 Ok(texture) => {
                     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
                     ui.painter_at(rect).image(texture, rect, whole, Color32::WHITE);
@@ -118,8 +158,9 @@ impl SolverView {
 }
 
 /// The names of the ends, where these are.
-fn names(ui: &Ui, rect: Rect, made: &Made, views: &Views) {
-    for patch in made.ready.patches.iter().skip(1).take(NAMED) {
+fn names(ui: &Ui, rect: Rect, preparation: &Preparation, views: &Views) {
+    let patches = preparation.made.iter().flat_map(|made| &made.ready.patches);
+    for patch in patches.skip(1).take(NAMED) {
         let centre = Vec3::from_array(patch.centre.map(|x| x as f32));
         if let Some(at) = seen(centre, &views.camera, rect).filter(|at| rect.shrink(24.0).contains(*at)) {
             write(ui, rect, at, Align2::CENTER_CENTER, &patch.name);

@@ -53,7 +53,7 @@ impl State {
             }
             // The comparison may have been given up meanwhile.
             Event::Progress { work: Work::Comparing, .. } if !self.comparison.is_busy() => {}
-            Event::Progress { work: Work::Preparing, .. } if !self.preparation.is_busy() => {}
+            Event::Progress { work: Work::Preparing, .. } if !self.preparation.is_worked_on() => {}
             Event::Progress { work, fraction } => self.work = Some((work, fraction)),
             Event::Compared(compared) => {
                 self.comparison.receive(*compared);
@@ -65,7 +65,11 @@ impl State {
             }
             Event::Prepared(ready) => {
                 self.preparation.receive(*ready);
-                self.comparison.set_open(self.comparison.is_open() && !self.preparation.is_open);
+                self.comparison.set_open(self.comparison.is_open() && self.preparation.shown.is_none());
+                self.rest();
+            }
+            Event::CutsPlanned(planned) => {
+                self.preparation.receive_cuts(*planned);
                 self.rest();
             }
             Event::Beside(compared) => {

@@ -38,6 +38,16 @@ solver-prepare-help = Aus der gezeigten Stufe; sie selbst bleibt, wie sie ist
 solver-show-level = Stufe zeigen
 solver-show-made = Ergebnis zeigen
 
+## Wo einzelne Enden geschnitten werden
+
+solver-show-cuts = Schnitte zeigen
+solver-show-cuts-help = Wo jedes Ende geschnitten wird und was wegfällt; dort lässt sich ein Schnitt verschieben
+solver-cuts-help = Was abgeschnitten wird, ist farbig. Ziehen Sie einen Ring entlang seines Gefäßes, oder geben Sie seinen Abstand vom Ende ein.
+solver-cut-end = Ende { $number }
+solver-cut-distance = Abstand des Schnitts von Ende { $number }
+solver-cut-not = Ende { $number } wird nicht geschnitten: { $why }.
+solver-cuts-reset = Alle Enden gleich
+
 ## Was daraus wurde
 
 solver-triangles = { $count ->
@@ -125,6 +135,7 @@ solver-note-left-out = { $others ->
    *[other] { $others } kleinere Stücke sind weggelassen.
 }
 solver-note-not-cut = Das Ende bei ({ $at }) ist nicht geschnitten: { $why }.
+solver-note-no-end = Bei ({ $at }) endet kein Gefäß: dort wird nichts geschnitten.
 solver-note-no-ends = Kein Ende zum Verlängern oder Schließen gefunden: zuerst die Enden schneiden.
 solver-note-filled = { $count ->
     [one] Ein Loch in der Wand ist gefüllt.

@@ -38,6 +38,16 @@ solver-prepare-help = Of the level that is shown; the level itself stays as it i
 solver-show-level = Show the level
 solver-show-made = Show the result
 
+## Where single ends are cut
+
+solver-show-cuts = Show the cuts
+solver-show-cuts-help = Where each end is cut, and what goes; move a cut there
+solver-cuts-help = What is cut off is in colour. Drag a ring along its vessel, or type how far it is from the end.
+solver-cut-end = End { $number }
+solver-cut-distance = Distance of the cut from end { $number }
+solver-cut-not = End { $number } is not cut: { $why }.
+solver-cuts-reset = All ends alike
+
 ## What came of it
 
 solver-triangles = { $count ->

@@ -38,6 +38,16 @@ solver-prepare-help = À partir du niveau affiché, qui reste tel quel
 solver-show-level = Afficher le niveau
 solver-show-made = Afficher le résultat
 
+## Où des extrémités sont coupées une à une
+
+solver-show-cuts = Afficher les coupes
+solver-show-cuts-help = Où chaque extrémité est coupée, et ce qui disparaît ; une coupe s'y déplace
+solver-cuts-help = Ce qui est coupé est en couleur. Faites glisser un anneau le long de son vaisseau, ou tapez sa distance à l'extrémité.
+solver-cut-end = Extrémité { $number }
+solver-cut-distance = Distance de la coupe à l'extrémité { $number }
+solver-cut-not = L'extrémité { $number } n'est pas coupée : { $why }.
+solver-cuts-reset = Toutes les extrémités pareilles
+
 ## Ce qu'il en est
 
 solver-triangles = { $count ->
@@ -125,6 +135,7 @@ solver-note-left-out = { $others ->
    *[other] { $others } pièces plus petites sont laissées de côté.
 }
 solver-note-not-cut = L'extrémité en ({ $at }) n'est pas coupée : { $why }.
+solver-note-no-end = Aucun vaisseau ne finit près de ({ $at }) : rien n'y est coupé.
 solver-note-no-ends = Aucune extrémité à prolonger ou à fermer : coupez d'abord les extrémités.
 solver-note-filled = { $count ->
     [one] Un trou de la paroi est rempli.

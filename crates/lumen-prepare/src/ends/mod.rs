@@ -173,33 +173,84 @@ pub struct Proposal {
     pub refused: Vec<EndError>,
 }
 
+/// The ends of the branches of `tree` at which none goes on: the branch, and whether its last point is meant; the first point
+/// before the last.
+pub fn free_ends(tree: &Tree) -> impl Iterator<Item = (&Branch, bool)> {
+    let both = tree.branches().iter().flat_map(|branch| [(branch, false), (branch, true)]);
+    both.filter(|(branch, at_end)| branch.ends[usize::from(*at_end)] != End::Joint)
+}
+
+/// Finds planes at the ends of a surface.
+pub struct EndPlanes<'a> {
+    mesh: &'a TriMesh,
+    tree: &'a Tree,
+    /// Its boundary loops.
+    rims: Vec<Vec<DVec3>>,
+}
+
+impl<'a> EndPlanes<'a> {
+    /// Those of `tree`, that of `mesh`.
+    ///
+    /// # Errors
+    /// [`SurfaceError`].
+    pub fn new(mesh: &'a TriMesh, tree: &'a Tree) -> Result<Self, SurfaceError> {
+        check_surface(mesh)?;
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let points = |rim: Vec<u32>| rim.into_iter().map(|v| mesh.positions[v as usize].as_dvec3()).collect();
+        Ok(Self { mesh, tree, rims: boundary_loops(&topology).into_iter().map(points).collect() })
+    }
+
+    fn end(&self, branch: &'a Branch, at_end: bool) -> VesselEnd<'a> {
+        VesselEnd { mesh: self.mesh, index: &self.tree.space.index, branch, at_end }
+    }
+
+    /// The plane nearest to a free end at which the vessel is round.
+    ///
+    /// # Errors
+    /// [`EndError`], where no place is round and clear of the fork.
+    pub fn round(&self, branch: &'a Branch, at_end: bool) -> Result<EndPlane, EndError> {
+        self.end(branch, at_end).nearest_plane(branch.ends[usize::from(at_end)], &self.rims)
+    }
+
+    /// The plane at `distance` from a free end along the centreline. The section need not be round:
+    /// [`EndPlane::roundness`] says how round it is.
+    ///
+    /// # Errors
+    /// [`EndError`], where a fork is too near or the section is not closed.
+    pub fn at(&self, branch: &'a Branch, at_end: bool, distance: Length) -> Result<EndPlane, EndError> {
+        self.end(branch, at_end).at_distance(distance)
+    }
+
+    /// The centreline from a free end inwards, as far as a plane may stand.
+    pub fn way(&self, branch: &'a Branch, at_end: bool) -> Vec<Place> {
+        let end = self.end(branch, at_end);
+        let (length, room) = (branch.length_mm(), end.room());
+        let from_end = |i: usize| if at_end { length - branch.arcs[i] } else { branch.arcs[i] };
+        let mut inside: Vec<usize> = (0..branch.points.len()).filter(|&i| from_end(i) <= room).collect();
+        if at_end {
+            inside.reverse();
+        }
+        inside.into_iter().map(|i| branch.points[i]).collect()
+    }
+}
+
 /// Proposes a plane for every end of `tree`, that of `mesh`.
 ///
 /// # Errors
 /// [`SurfaceError`]. Ends that cannot be cut are no error of the whole: [`Proposal::refused`] has them.
 pub fn propose(mesh: &TriMesh, tree: &Tree) -> Result<Proposal, SurfaceError> {
-    check_surface(mesh)?;
-    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-    let points = |rim: Vec<u32>| rim.into_iter().map(|v| mesh.positions[v as usize].as_dvec3()).collect();
-    let rims: Vec<Vec<DVec3>> = boundary_loops(&topology).into_iter().map(points).collect();
+    let planes = EndPlanes::new(mesh, tree)?;
     let mut proposal = Proposal::default();
-    for branch in tree.branches() {
-        for (at_end, end) in [false, true].into_iter().zip(branch.ends) {
-            if end == End::Joint {
-                continue;
-            }
-            let vessel = VesselEnd { mesh, index: &tree.space.index, branch, at_end };
-            match vessel.nearest_plane(end, &rims) {
-                Ok(plane) => proposal.planes.push(plane),
-                Err(error) => proposal.refused.push(error),
-            }
+    for (branch, at_end) in free_ends(tree) {
+        match planes.round(branch, at_end) {
+            Ok(plane) => proposal.planes.push(plane),
+            Err(error) => proposal.refused.push(error),
         }
     }
     Ok(proposal)
 }
 
-/// The plane at `distance` from an end of a branch of `tree`, that of `mesh`, along the centreline. The section need not
-/// be round: [`EndPlane::roundness`] says how round it is.
+/// The plane at `distance` from an end of a branch of `tree`, that of `mesh`, as [`EndPlanes::at`] finds it.
 ///
 /// # Errors
 /// [`EndError`], where the branch does not end there, a fork is too near or the section is not closed.
@@ -209,13 +260,7 @@ pub fn place(mesh: &TriMesh, tree: &Tree, branch: u32, at_end: bool, distance: L
     if branch.ends[usize::from(at_end)] == End::Joint {
         return Err(EndError::Joint { branch: branch.id, at_end });
     }
-    let vessel = VesselEnd { mesh, index: &tree.space.index, branch, at_end };
-    let asked_mm = distance.mm(vessel.at(0.0).radius).ok_or(EndError::Distance { branch: branch.id })?;
-    let room_mm = vessel.room();
-    if asked_mm > room_mm {
-        return Err(EndError::TooNearFork { branch: branch.id, at_end, asked_mm, room_mm });
-    }
-    vessel.plane(asked_mm).ok_or(EndError::NoSection { branch: branch.id, at_end, arc_mm: asked_mm })
+    VesselEnd { mesh, index: &tree.space.index, branch, at_end }.at_distance(distance)
 }
 
 /// An end of a branch, of a surface and its index.
@@ -274,6 +319,16 @@ impl VesselEnd<'_> {
             roundness: if largest > 0.0 { least / largest } else { 0.0 },
             arc_mm: from_end,
         })
+    }
+
+    fn at_distance(&self, distance: Length) -> Result<EndPlane, EndError> {
+        let (branch, at_end) = (self.branch.id, self.at_end);
+        let asked_mm = distance.mm(self.at(0.0).radius).ok_or(EndError::Distance { branch })?;
+        let room_mm = self.room();
+        if asked_mm > room_mm {
+            return Err(EndError::TooNearFork { branch, at_end, asked_mm, room_mm });
+        }
+        self.plane(asked_mm).ok_or(EndError::NoSection { branch, at_end, arc_mm: asked_mm })
     }
 
     /// The closed outline about a place in the plane across `normal`; of several the smallest.

@@ -4,10 +4,12 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen::app::solver::Preparation;
+use lumen::app::solver::{Preparation, Shown};
 use lumen::prepare::PatchKind;
-use lumen::prepare::prepare::{ClipAt, Plan};
-use lumen_ui_tests::{DESKTOP, app, offered, open as open_file, says, settle, tube};
+use lumen::prepare::cuts::ClipAt;
+use lumen::prepare::ends::Length;
+use lumen::prepare::prepare::Plan;
+use lumen_ui_tests::{DESKTOP, app, drag, offered, open as open_file, says, settle, tube};
 
 /// Brings a control into sight and presses it.
 fn press(harness: &mut Harness<'_, LumenApp>, role: Role, label: &str) {
@@ -99,7 +101,7 @@ fn another_surface_forgets_what_was_made_and_a_cancel_ends_the_work() {
     assert!(preparation(&harness).made.is_some());
     open_file(&mut harness, &memory, "tube.obj", tube(3.0, 40.0, 0.8));
     settle(&mut harness);
-    assert!(preparation(&harness).made.is_none() && !preparation(&harness).is_open);
+    assert!(preparation(&harness).made.is_none() && preparation(&harness).shown.is_none());
     memory.borrow_mut().runs = false;
     press(&mut harness, Role::Button, "Make ready");
     assert!(preparation(&harness).is_busy());
@@ -111,4 +113,90 @@ fn another_surface_forgets_what_was_made_and_a_cancel_ends_the_work() {
     settle(&mut harness);
     let made = preparation(&harness).made.as_ref().unwrap();
     assert_eq!(made.ready.patches.len(), 3, "a tube has two ends: {:?}", made.ready.notes);
+}
+
+#[test]
+fn a_cut_is_dragged_and_typed_and_undone_and_what_is_made_is_cut_there() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    open_file(&mut harness, &memory, "tube.obj", tube(3.0, 40.0, 0.8));
+    settle(&mut harness);
+    press(&mut harness, Role::DisclosureTriangle, "For a solver");
+    // How far apart the ends of what is made are, with their extensions.
+    let length = |harness: &mut Harness<'_, LumenApp>| {
+        press(harness, Role::Button, "Make ready");
+        settle(harness);
+        let ready = &preparation(harness).made.as_ref().unwrap().ready;
+        assert!(ready.fate.is_ready() && ready.patches.len() == 3, "{:?}", ready.notes);
+        let [one, other] = [1, 2].map(|end| lumen::mesh::Vec3::from(ready.patches[end].centre.map(|x| x as f32)));
+        f64::from(one.distance(other))
+    };
+    let whole = length(&mut harness);
+    press(&mut harness, Role::Button, "Show the cuts");
+    settle(&mut harness);
+    let planned = preparation(&harness).planned.as_ref().unwrap();
+    assert_eq!(planned.found.ends.len(), 2);
+    // The tube is round: it is cut just inside of its rims.
+    assert!(planned.found.ends.iter().all(|end| end.plane.unwrap().arc_mm < 1.0));
+    let first_mm = planned.found.ends[0].plane.unwrap().arc_mm;
+    let goes = |harness: &Harness<'_, LumenApp>, end: u32| {
+        let found = &preparation(harness).planned.as_ref().unwrap().found;
+        let area = |t: usize| lumen::mesh::triangle_area(found.mesh.corners(t));
+        (0..found.mesh.triangles.len()).filter(|&t| found.of_triangle[t] == end + 1).map(area).sum::<f64>()
+    };
+    let before = [goes(&harness, 0), goes(&harness, 1)];
+
+    // The ring of the first end is dragged half way to that of the other.
+    let at = |harness: &Harness<'_, LumenApp>, number: u32| {
+        let label = format!("Distance of the cut from end {number}");
+        harness.get_all_by_role_and_label(Role::Slider, &label).next().unwrap().rect().center()
+    };
+    let way = at(&harness, 2) - at(&harness, 1);
+    let from = at(&harness, 1);
+    drag(&mut harness, from, way / 4.0);
+    settle(&mut harness);
+    let plan = preparation(&harness).plan.clone();
+    let [cut] = plan.cuts.as_slice() else { panic!("{plan:?}") };
+    let Some(ClipAt::Distance(Length::Mm(mm))) = cut.at else { panic!("{cut:?}") };
+    assert!((8.0..12.0).contains(&mm), "a quarter of 40 mm: {mm}");
+    // Triangles that the plane cuts stay in part.
+    let around = 2.0 * std::f64::consts::PI * 3.0;
+    assert!((before[0] + around..mm * around).contains(&goes(&harness, 0)), "{} of {mm} mm", goes(&harness, 0));
+    assert_eq!(goes(&harness, 1), before[1]);
+
+    let shorter = length(&mut harness);
+    assert!((whole - shorter - (mm - first_mm)).abs() < 0.3, "{shorter} of {whole} with {mm} and not {first_mm} mm");
+    press(&mut harness, Role::Button, "Show the cuts");
+    settle(&mut harness);
+    press(&mut harness, Role::CheckBox, "End 2");
+    settle(&mut harness);
+    assert_eq!(goes(&harness, 1), 0.0);
+    press(&mut harness, Role::Button, "Undo");
+    press(&mut harness, Role::Button, "Undo");
+    assert_eq!(preparation(&harness).plan, Plan::flow());
+
+    // What is asked of ends is of this surface.
+    press(&mut harness, Role::Button, "Redo");
+    assert_eq!(preparation(&harness).plan.cuts.len(), 1);
+    open_file(&mut harness, &memory, "other.obj", tube(2.0, 30.0, 0.8));
+    settle(&mut harness);
+    assert_eq!(preparation(&harness).plan, Plan::flow());
+}
+
+#[test]
+fn cuts_that_are_cancelled_are_left_and_a_level_that_moves_leaves_them() {
+    let (mut harness, memory) = open();
+    memory.borrow_mut().runs = false;
+    press(&mut harness, Role::Button, "Show the cuts");
+    assert!(preparation(&harness).shown == Some(Shown::Cuts));
+    harness.key_press(egui::Key::Escape);
+    memory.borrow_mut().runs = true;
+    settle(&mut harness);
+    assert!(preparation(&harness).shown.is_none() && preparation(&harness).planned.is_none());
+    press(&mut harness, Role::Button, "Show the cuts");
+    settle(&mut harness);
+    // The sample has five ends.
+    assert_eq!(preparation(&harness).planned.as_ref().unwrap().found.ends.len(), 5);
+    press(&mut harness, Role::Button, "Show the level");
+    assert!(harness.query_by_role_and_label(Role::Image, "Shaded view").is_some());
 }

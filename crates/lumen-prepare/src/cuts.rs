@@ -1,0 +1,261 @@
+//! Where each end of a surface is cut, by what is asked of all ends and of single ones, and what goes.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use lumen_mesh::mending::split::split;
+use lumen_mesh::task::Yielder;
+use lumen_mesh::{SurfaceIndex, Topology, TriMesh};
+use lumen_vessel::{Place, Tree};
+use serde::{Deserialize, Serialize};
+
+use super::clip::{Clipped, clip};
+use super::ends::{EndPlane, EndPlanes, Length, check_surface, free_ends};
+use super::notes::{Note, PrepareError, Reason};
+use super::prepare::{Plan, largest_piece};
+
+/// A place is that of an end at most so many of its radii away.
+const NEAR: f64 = 8.0;
+
+/// Where vessels are cut.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ClipAt {
+    /// As near to each end as the vessel is round there.
+    Round,
+    /// At this distance from each end.
+    Distance(Length),
+}
+
+/// Where one end is cut, whatever is asked of all.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cut {
+    /// The end, by a place in mm that is nearer to it than to any other, and within eight radii of it.
+    pub end_mm: [f64; 3],
+    /// Where; `None` leaves the end as it is.
+    pub at: Option<ClipAt>,
+}
+
+/// An end of a vessel, and where it is cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedEnd {
+    /// The centreline from the end inwards, as far as a plane may stand: places in mm, with radii.
+    pub way: Vec<Place>,
+    /// The place in [`Plan::cuts`] of what is asked of this end by itself.
+    pub cut: Option<usize>,
+    /// The plane; `None` where none is asked for, or none can be.
+    pub plane: Option<EndPlane>,
+    /// Why it cannot be cut as asked.
+    pub why: Option<Reason>,
+}
+
+impl PlannedEnd {
+    /// The last point of the centreline, in mm.
+    pub fn tip(&self) -> DVec3 {
+        self.way.first().map_or(DVec3::ZERO, |place| place.at)
+    }
+
+    pub(crate) fn not_cut(&self, why: Reason) -> Note {
+        Note::NotCut { at: self.tip().as_vec3().to_array(), why }
+    }
+}
+
+/// The ends of a surface, and what their planes cut off.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cuts {
+    /// What the tree's ends are: the largest piece of the surface.
+    pub mesh: TriMesh,
+    /// The ends.
+    pub ends: Vec<PlannedEnd>,
+    /// For each triangle of `mesh` 0 where some of it stays, or 1 more than the place of the end with which it goes.
+    pub of_triangle: Vec<u32>,
+    /// What cannot be cut as asked.
+    pub notes: Vec<Note>,
+}
+
+/// What [`prepare`](super::prepare::prepare) would cut off by `plan`, but for what it uncrosses before.
+///
+/// # Errors
+/// [`PrepareError`], as there. A single end that cannot be cut is a [`Note`].
+pub async fn cuts(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<Cuts, PrepareError> {
+    plan.check()?;
+    check_surface(mesh)?;
+    let (mesh, _) = largest_piece(split(mesh).mesh);
+    yielder.rest(0.1).await;
+    let (mut ends, mut notes) = planned(&mesh, plan, &yielder.part(0.1..0.9)).await?;
+    let planes: Vec<EndPlane> = ends.iter().filter_map(|end| end.plane.clone()).collect();
+    let mut refused = Vec::new();
+    let (_, from) = cut_at(mesh.clone(), &planes, &mut refused);
+    for note in refused {
+        // What is told of a plane is told of its end.
+        let end = ends.iter_mut().find(|end| {
+            end.plane.as_ref().is_some_and(|plane| matches!(&note, Note::NotCut { at, .. } if *at == place_of(plane)))
+        });
+        match (end, note) {
+            (Some(end), Note::NotCut { why, .. }) => (end.plane, end.why) = (None, Some(why)),
+            (_, note) => notes.push(note),
+        }
+    }
+    let mut of_triangle = vec![u32::MAX; mesh.triangles.len()];
+    from.iter().for_each(|&t| of_triangle[t as usize] = 0);
+    for (t, of) in of_triangle.iter_mut().enumerate().filter(|(_, of)| **of == u32::MAX) {
+        let [a, b, c] = mesh.corners(t);
+        let middle = ((a + b + c) / 3.0).as_dvec3();
+        let cut = ends.iter().enumerate().filter(|(_, end)| end.plane.is_some());
+        let nearest = cut.map(|(i, end)| (end.tip().distance_squared(middle), i));
+        let nearest = nearest.reduce(|least, next| if next.0 < least.0 { next } else { least });
+        *of = nearest.map_or(0, |(_, i)| i as u32 + 1);
+    }
+    Ok(Cuts { mesh, ends, of_triangle, notes })
+}
+
+/// The ends of a surface with their planes, and a note on each place of `plan` that is that of none.
+pub(crate) async fn planned(
+    mesh: &TriMesh,
+    plan: &Plan,
+    yielder: &Yielder,
+) -> Result<(Vec<PlannedEnd>, Vec<Note>), PrepareError> {
+    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    let index = Arc::new(SurfaceIndex::new(&mesh.positions, &mesh.triangles));
+    let tree = Tree::with_topology_in_slices(mesh, &topology, index, &yielder.part(0.0..0.9)).await?;
+    let planes = EndPlanes::new(mesh, &tree)?;
+    yielder.rest(0.9).await;
+    let free: Vec<_> = free_ends(&tree).collect();
+    let ways: Vec<Vec<Place>> = free.iter().map(|&(branch, at_end)| planes.way(branch, at_end)).collect();
+    let mut cut_of = vec![None; free.len()];
+    let mut strays = Vec::new();
+    for (number, cut) in plan.cuts.iter().enumerate() {
+        let asked = DVec3::from_array(cut.end_mm);
+        let tips = ways.iter().enumerate().filter_map(|(i, way)| Some((i, way.first()?)));
+        let nearest = tips.map(|(i, tip)| (tip.at.distance(asked), i, tip.radius));
+        let nearest = nearest.reduce(|least, next| if next.0 < least.0 { next } else { least });
+        match nearest.filter(|(distance, _, radius)| *distance <= NEAR * radius) {
+            Some((_, i, _)) => cut_of[i] = Some(number),
+            None => strays.push(Note::NoEndThere { at: asked.as_vec3().to_array() }),
+        }
+    }
+    let mut ends = Vec::with_capacity(free.len());
+    for (i, ((branch, at_end), way)) in free.into_iter().zip(ways).enumerate() {
+        let cut: Option<usize> = cut_of[i];
+        let found = match cut.map_or(plan.clip, |cut| plan.cuts[cut].at) {
+            None => None,
+            Some(ClipAt::Round) => Some(planes.round(branch, at_end)),
+            Some(ClipAt::Distance(distance)) => Some(planes.at(branch, at_end, distance)),
+        };
+        let (plane, why) = match found.transpose() {
+            Ok(plane) => (plane, None),
+            Err(error) => (None, Some(Reason::from(&error))),
+        };
+        ends.push(PlannedEnd { way, cut, plane, why });
+        yielder.rest(0.9 + 0.1 * i as f32 / cut_of.len() as f32).await;
+    }
+    Ok((ends, strays))
+}
+
+fn place_of(plane: &EndPlane) -> [f32; 3] {
+    plane.centre.as_vec3().to_array()
+}
+
+/// The surface cut at those planes that cut it, and for each of its triangles the one of `mesh` that it is a part of.
+pub(crate) fn cut_at(mesh: TriMesh, planes: &[EndPlane], notes: &mut Vec<Note>) -> (TriMesh, Vec<u32>) {
+    let (first, error) = match (clip(&mesh, planes), planes) {
+        (_, []) => {
+            let all = (0..mesh.triangles.len() as u32).collect();
+            return (mesh, all);
+        }
+        (Ok(Clipped { mesh, from, .. }), _) => return (mesh, from),
+        (Err(error), [first, ..]) => (first, error),
+    };
+    let one_by_one = |parts: &[&[EndPlane]], notes: &mut Vec<Note>| {
+        let all = (0..mesh.triangles.len() as u32).collect();
+        parts.iter().fold((mesh.clone(), all), |(mesh, from): (TriMesh, Vec<u32>), part| {
+            let (mesh, of) = cut_at(mesh, part, notes);
+            (mesh, of.into_iter().map(|t| from[t as usize]).collect())
+        })
+    };
+    match error.end().filter(|&end| end < planes.len()) {
+        // The others are cut without it.
+        Some(failed) => {
+            notes.push(Note::NotCut { at: place_of(&planes[failed]), why: (&error).into() });
+            one_by_one(&[&planes[..failed], &planes[failed + 1..]], notes)
+        }
+        // It is one of them: each by itself shows which.
+        None if planes.len() > 1 => one_by_one(&planes.chunks(1).collect::<Vec<_>>(), notes),
+        None => {
+            notes.push(Note::NotCut { at: place_of(first), why: (&error).into() });
+            one_by_one(&[], notes)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use lumen_mesh::shapes::{fork, tube};
+    use lumen_mesh::task::at_once;
+
+    use super::*;
+
+    fn planned_by(mesh: &TriMesh, clip: Option<ClipAt>, cuts: Vec<Cut>) -> Cuts {
+        at_once(super::cuts(mesh, &Plan { clip, cuts, ..Plan::default() }, &Yielder::never())).unwrap()
+    }
+
+    fn mm(mm: f64) -> Option<ClipAt> {
+        Some(ClipAt::Distance(Length::Mm(mm)))
+    }
+
+    /// The area of the triangles that go with the end nearest to `tip`, in mm2.
+    fn cut_off(cuts: &Cuts, tip: DVec3) -> f64 {
+        let nearest =
+            |&a: &usize, &b: &usize| cuts.ends[a].tip().distance(tip).total_cmp(&cuts.ends[b].tip().distance(tip));
+        let end = (0..cuts.ends.len()).min_by(nearest).unwrap() as u32 + 1;
+        let of_end = cuts.of_triangle.iter().enumerate().filter(|(_, of)| **of == end);
+        of_end.map(|(t, _)| lumen_mesh::triangle_area(cuts.mesh.corners(t))).sum()
+    }
+
+    #[test]
+    fn one_end_of_a_tube_is_cut_elsewhere_and_one_is_left() {
+        let mesh = tube(64, 160, 40.0, |_| 2.0);
+        let (low, high) = (DVec3::ZERO, DVec3::Z * 40.0);
+        let around = 2.0 * std::f64::consts::PI * 2.0;
+        let all = planned_by(&mesh, mm(4.0), Vec::new());
+        // Rings stand a quarter of a mm apart, and those that are cut stay in part.
+        assert!((cut_off(&all, low) - 4.0 * around).abs() < 0.26 * around, "{}", cut_off(&all, low));
+        let one = planned_by(&mesh, mm(4.0), vec![Cut { end_mm: [0.5, 0.5, 38.0], at: mm(10.0) }]);
+        assert!((cut_off(&one, high) - 10.0 * around).abs() < 0.26 * around, "{}", cut_off(&one, high));
+        assert_eq!(cut_off(&one, low), cut_off(&all, low));
+        let left = planned_by(&mesh, mm(4.0), vec![Cut { end_mm: [0.0, 0.0, 38.0], at: None }]);
+        assert_eq!((cut_off(&left, high), cut_off(&left, low)), (0.0, cut_off(&all, low)));
+        let only = planned_by(&mesh, None, vec![Cut { end_mm: [0.0, 0.0, 38.0], at: mm(10.0) }]);
+        assert_eq!((cut_off(&only, low), cut_off(&only, high)), (0.0, cut_off(&one, high)));
+    }
+
+    #[test]
+    fn the_way_leads_from_the_tip_to_where_a_fork_is_too_near() {
+        let (mesh, [trunk, ..]) = fork();
+        let found = planned_by(&mesh, Some(ClipAt::Round), Vec::new());
+        assert_eq!(found.ends.len(), 3);
+        for end in &found.ends {
+            assert!(end.plane.is_some() && end.why.is_none());
+            // A plane may stand all along it, and no farther.
+            let length: f64 = end.way.windows(2).map(|pair| pair[0].at.distance(pair[1].at)).sum();
+            for (further, is_cut) in [(-0.01, true), (0.5, false)] {
+                let cut = Cut { end_mm: end.tip().to_array(), at: mm(length + further) };
+                let alone = planned_by(&mesh, None, vec![cut]);
+                let end = alone.ends.iter().find(|end| end.cut == Some(0)).unwrap();
+                assert_eq!(end.plane.is_some(), is_cut, "{length} {further}: {:?}", end.why);
+            }
+        }
+        let far = planned_by(&mesh, None, vec![Cut { end_mm: trunk.to_array(), at: mm(1000.0) }]);
+        assert!(far.ends.iter().any(|end| matches!(end.why, Some(Reason::Fork { .. }))), "{:?}", far.ends);
+        assert!(far.of_triangle.iter().all(|&of| of == 0));
+    }
+
+    #[test]
+    fn a_place_far_from_any_end_is_told() {
+        let mesh = tube(32, 80, 40.0, |_| 2.0);
+        let found = planned_by(&mesh, None, vec![Cut { end_mm: [0.0, 30.0, 0.0], at: mm(1.0) }]);
+        assert_eq!(found.notes, [Note::NoEndThere { at: [0.0, 30.0, 0.0] }]);
+        assert!(found.ends.iter().all(|end| end.plane.is_none()));
+    }
+}
