@@ -141,7 +141,7 @@ impl Prepare {
         let plan = self.plan()?;
         let stem = Path::new(&self.file).file_stem().map_or("surface".into(), |stem| stem.to_string_lossy());
         let stem = stem.replace(':', "-");
-        let single = self.format.iter().filter(|format| **format != SolverFormat::SimVascular);
+        let single = self.format.iter().filter(|format| !format.is_folder());
         let names: Vec<String> =
             single.map(|format| format.extension()).chain(["json"]).map(|ending| format!("{stem}.{ending}")).collect();
         self.check(names.iter().map(String::as_str))?;

@@ -93,7 +93,7 @@ pub enum Command {
         id: u64,
         /// The name of the file, with extension.
         name: String,
-        /// Its format, one of a single file.
+        /// Its format.
         format: SolverFormat,
         /// The names of the patches, the wall first.
         names: Vec<String>,

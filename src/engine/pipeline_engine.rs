@@ -106,7 +106,7 @@ impl Engine {
             Command::PlanCuts { id, mesh, plan } => self.preparing = Some(Preparing::cuts(id, mesh, plan)),
             Command::WriteSolver { id, name, format, names } => {
                 let ready = self.prepared.as_ref().filter(|(of, _)| *of == id).ok_or_else(|| say!("errors-no-result"));
-                self.events.push_back(match ready.and_then(|(_, surface)| written(surface, names, format)) {
+                self.events.push_back(match ready.and_then(|(_, surface)| written(surface, &name, names, format)) {
                     Ok(bytes) => Event::Written { name, bytes, left_out: None },
                     Err(message) => Event::NotWritten { name, message },
                 });

@@ -1,6 +1,7 @@
 //! A level that is made ready for a solver, and the files that are made of it.
 
 use std::collections::VecDeque;
+use std::io::{Cursor, Write as _};
 use std::sync::Arc;
 
 use super::found::{CutsPlanned, PlannedCuts, Ready, SolverReady};
@@ -68,12 +69,32 @@ impl Preparing {
     }
 }
 
-/// A file of a surface in patches, which are called by these names.
-pub(super) fn written(surface: &Patched, names: Vec<String>, format: SolverFormat) -> Result<Vec<u8>, String> {
+/// The file `name` of a surface in patches, which are called by `names`. Of a format of several files it is a ZIP.
+pub(super) fn written(
+    surface: &Patched,
+    name: &str,
+    names: Vec<String>,
+    format: SolverFormat,
+) -> Result<Vec<u8>, String> {
     let mut surface = surface.clone();
     surface.patches.iter_mut().zip(names).for_each(|(patch, name)| patch.name = name);
-    let files = format.written(&surface, "").map_err(|error| error.to_string())?;
-    files.into_iter().next().map(|(_, bytes)| bytes).ok_or_else(String::new)
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    let mut files = format.written(&surface, stem).map_err(|error| error.to_string())?;
+    if format.is_folder() {
+        return zipped(&files).map_err(|error| error.to_string());
+    }
+    files.pop().map(|(_, bytes)| bytes).ok_or_else(String::new)
+}
+
+/// A ZIP of files by their paths, not compressed.
+fn zipped(files: &[(String, Vec<u8>)]) -> zip::result::ZipResult<Vec<u8>> {
+    let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    let stored = zip::write::SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+    for (path, bytes) in files {
+        archive.start_file(path.as_str(), stored)?;
+        archive.write_all(bytes)?;
+    }
+    archive.finish().map(Cursor::into_inner)
 }
 
 #[cfg(test)]
@@ -118,6 +139,19 @@ mod tests {
         let [Event::Written { bytes, .. }] = files.as_slice() else { panic!("{files:?}") };
         let text = String::from_utf8_lossy(bytes);
         assert!(["solid wall", "solid heart", "solid leg"].iter().all(|solid| text.contains(solid)));
+        let zip = Command::WriteSolver {
+            id: 7,
+            name: "a-solver.zip".to_owned(),
+            format: SolverFormat::SimVascular,
+            names: names.clone(),
+        };
+        engine.handle(zip);
+        let files = run(&mut engine);
+        let [Event::Written { bytes, .. }] = files.as_slice() else { panic!("{files:?}") };
+        let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
+        let inside = archive.by_name("a-solver-mesh-complete/mesh-surfaces/heart.vtp").unwrap();
+        let text = std::io::read_to_string(inside).unwrap();
+        assert!(text.contains("<VTKFile") && text.trim_end().ends_with("</VTKFile>"));
         // Another than the one that is shown.
         engine.handle(write(6));
         assert!(matches!(run(&mut engine).as_slice(), [Event::NotWritten { .. }]));

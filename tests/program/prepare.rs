@@ -170,6 +170,8 @@ fn a_settings_file_says_what_is_done_and_options_count_for_more() {
     let radius = 2.0 * (12.0 / PI * (PI / 12.0).sin()).sqrt();
     near(made(&[]), 30.0 + 2.0 * 5.0 * radius, 3);
     near(made(&["--extend", "1mm"]), 32.0, 3);
+    // One end is cut 6 mm from its rim, and the other left; what a file says of cuts is added to.
+    near(made(&["--extend", "none", "--clip-end", "1,0,29=6mm"]), 24.0, 3);
     near(made(&["--extend", "none", "--cap", "none"]), 30.0, 1);
     std::fs::write(&nothing, write_settings_and(&SharedSettings::default(), Beside::default())).unwrap();
     let told = lumen(&["prepare", &file, "--settings", &nothing, "-o", &out]);
@@ -186,6 +188,9 @@ fn what_cannot_be_prepared_gets_a_sentence_and_no_file() {
         (&["--cap", "round"], 2, "there are fan, planar, smooth"),
         (&["--cap", "fan", "--format", "step"], 2, "there are stl, msh, inp, vtp, simvascular"),
         (&["--remesh", "2"], 2, "3 edges around or more"),
+        (&["--clip-end", "1,2=3mm"], 2, "is no cut of an end"),
+        (&["--clip-end", "1,2,x=3mm"], 2, "is no cut of an end"),
+        (&["--clip-end", "1,2,3=far"], 2, "is no length"),
     ] {
         let refused = lumen(&[&["prepare", "sample:aorta", "-o", &out], arguments].concat());
         let error = String::from_utf8_lossy(&refused.stderr);

@@ -210,9 +210,9 @@ fn result(ui: &mut Ui, preparation: &Preparation, made: &Made, asked: &mut Vec<A
     }
     patches(ui, made, of_step);
     menu(ui, &say!("solver-save"), &mut |ui| {
-        // The files of SimVascular are a folder, which a window cannot give.
-        for format in SolverFormat::ALL.into_iter().filter(|&format| format != SolverFormat::SimVascular) {
-            if ui.button(format.name()).clicked() {
+        for format in SolverFormat::ALL {
+            let zip = if format.is_folder() { " (ZIP)" } else { "" };
+            if ui.button(format!("{}{zip}", format.name())).clicked() {
                 of_step.push(Action::Save(format));
                 ui.close();
             }

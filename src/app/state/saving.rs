@@ -44,7 +44,8 @@ impl State {
     /// Asks for the surface that was made ready for a solver as a file.
     pub fn save_for_solver(&mut self, format: SolverFormat, link: &mut dyn Link) {
         let (Some(document), Some(made)) = (&self.document, &self.preparation.made) else { return };
-        let name = format!("{}-solver.{}", document.stem(), format.extension());
+        let extension = if format.is_folder() { "zip" } else { format.extension() };
+        let name = format!("{}-solver.{extension}", document.stem());
         let (id, names) = (made.id, self.preparation.names());
         self.ask_for_file(&name.clone(), Command::WriteSolver { id, name, format, names }, link);
     }

@@ -73,6 +73,11 @@ impl SolverFormat {
         }
     }
 
+    /// Whether its files are a folder of several.
+    pub fn is_folder(self) -> bool {
+        self == Self::SimVascular
+    }
+
     /// The files of a surface, each with its name; folders in a name end with `/`. `stem` begins the names: it is used as
     /// it is.
     ///
