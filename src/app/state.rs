@@ -24,6 +24,7 @@ use crate::pipeline::paper;
 use crate::pipeline::report::AutoReport;
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::{Boundary, Keep, Settings, Target};
+use crate::prepare::Patch;
 use crate::prepare::prepare::Plan;
 use crate::sharing::measures::Measure;
 
@@ -354,6 +355,15 @@ impl State {
         }
         self.average(link);
         self.rest();
+    }
+
+    /// The patches of the level that is shown as it was made ready for a solver by what is asked for now; none where it
+    /// was not.
+    pub(in crate::app) fn patches_for_solver(&self) -> Vec<Patch> {
+        let now = self.document.as_ref().map(|document| level(document.revision));
+        let made = self.preparation.made.as_ref();
+        let made = made.filter(|made| Some(made.of) == now && made.plan == self.preparation.plan);
+        made.map(|made| made.ready.patches.clone()).unwrap_or_default()
     }
 
     /// Asks where the ends of the level are cut, where that is shown and is not known.

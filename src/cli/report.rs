@@ -84,8 +84,15 @@ impl WriteReport {
             case: self.case.clone().unwrap_or_default(),
             comment: self.comment.clone().unwrap_or_default(),
         };
-        let subject =
-            Subject { heading: &heading, digest, import: &import, report: &report, verdict: &verdict, measures: &[] };
+        let subject = Subject {
+            heading: &heading,
+            digest,
+            import: &import,
+            report: &report,
+            verdict: &verdict,
+            measures: &[],
+            patches: &[],
+        };
         let mut document = Document::new(&subject, drawn);
         if self.surface {
             document.surface = Carried::of(&pipeline, import.axes);

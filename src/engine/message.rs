@@ -20,6 +20,7 @@ use crate::pipeline::report::Report;
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
+use crate::prepare::Patch;
 use crate::prepare::prepare::Plan;
 use crate::prepare::write::SolverFormat;
 use crate::report::{Heading, ReportFormat};
@@ -127,6 +128,8 @@ pub enum Command {
         axes: Axes,
         /// What a user has measured.
         measures: Vec<Measure>,
+        /// The patches of the level as it was made ready for a solver, under their names; none where it was not.
+        patches: Vec<Patch>,
         /// Its pictures.
         pictures: Vec<Frame>,
     },
@@ -426,6 +429,7 @@ mod tests {
                     made_on: crate::sharing::measures::MadeOn::Opened,
                     found: crate::sharing::measures::Found::Ruler { ends_mm: [[0.0; 3], [1.0; 3]] },
                 }],
+                patches: vec![Patch::wall()],
                 pictures: vec![frame.clone()],
             },
             Command::WriteFrame { name: "c.png".into(), index: 0, count: 1, has_alpha: true, frame },

@@ -115,8 +115,8 @@ impl Engine {
             Command::WriteCentrelines { name, format } => self.write_centrelines(name, format),
             Command::WriteLevel { name, format } => self.write_level(name, format),
             Command::WriteLevels { name, axes, to } => self.write_levels(name, axes, to),
-            Command::WriteReport { name, format, heading, axes, measures, pictures } => {
-                self.write_report(name, Asked { format, heading, axes, measures, pictures });
+            Command::WriteReport { name, format, heading, axes, measures, patches, pictures } => {
+                self.write_report(name, Asked { format, heading, axes, measures, patches, pictures });
             }
             Command::WriteFrame { name, index, count, has_alpha, frame } => {
                 self.events.extend(self.animation.take(name, [index, count], has_alpha, frame));

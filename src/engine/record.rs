@@ -5,6 +5,7 @@ use crate::io::{Axes, ImportReport};
 use crate::pipeline::report::Report;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::verdict::Verdict;
+use crate::prepare::Patch;
 use crate::report::{Carried, Document, Heading, Picture, PictureError, Pixels, ReportFormat, Strip, Subject};
 use crate::say;
 use crate::sharing::Digest;
@@ -28,6 +29,7 @@ pub(super) struct Asked {
     pub(super) heading: Heading,
     pub(super) axes: Axes,
     pub(super) measures: Vec<Measure>,
+    pub(super) patches: Vec<Patch>,
     pub(super) pictures: Vec<Frame>,
 }
 
@@ -51,6 +53,7 @@ pub(super) fn report(name: &str, pipeline: &Pipeline, origin: &Origin, asked: As
         report: &report,
         verdict: &verdict,
         measures: &asked.measures,
+        patches: &asked.patches,
     };
     let mut document = Document::new(&subject, pictures);
     if asked.format == ReportFormat::HtmlWithSurface {

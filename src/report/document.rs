@@ -14,6 +14,7 @@ use crate::pipeline::caps::changes_percent;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Preset, Settings, Target};
 use crate::pipeline::verdict::{FindingKind, Verdict};
+use crate::prepare::{Patch, PatchKind};
 use crate::say;
 use crate::sharing::Digest;
 use crate::sharing::measures::Measure;
@@ -65,6 +66,8 @@ pub struct Subject<'a> {
     pub verdict: &'a Verdict,
     /// What a user has measured.
     pub measures: &'a [Measure],
+    /// The patches of the level that was made ready for a solver, the wall first; none where it was not.
+    pub patches: &'a [Patch],
 }
 
 /// A name and what it is.
@@ -106,6 +109,8 @@ pub struct Document {
     pub stretches: Table,
     /// What a user has measured.
     pub measures: Table,
+    /// The patches of the level that was made ready for a solver.
+    pub patches: Table,
     /// The surface itself, for a web page.
     pub surface: Option<Carried>,
     /// The surface, with a caption each; or none.
@@ -147,6 +152,7 @@ impl Document {
             vessels: vessels(branches),
             stretches: stretches(branches),
             measures: measures(subject.measures),
+            patches: patches(subject.patches),
             surface: None,
             pictures,
             plots,
@@ -377,4 +383,28 @@ fn measures(measures: &[Measure]) -> Table {
     };
     let heads = vec![say!("report-measure"), say!("report-found"), say!("report-made-on"), say!("report-middle")];
     Table { heads, rows: measures.iter().map(row).collect() }
+}
+
+fn patches(patches: &[Patch]) -> Table {
+    let row = |patch: &Patch| {
+        let is_end = patch.kind != PatchKind::Wall;
+        let of_end = |text: String| if is_end { text } else { "–".to_owned() };
+        vec![
+            patch.name.clone(),
+            patch.id.to_string(),
+            decimal(patch.area_mm2, 2),
+            of_end(decimal(patch.radius_mm(), 2)),
+            of_end(point(patch.centre)),
+            of_end(point(patch.normal)),
+        ]
+    };
+    let heads = vec![
+        say!("solver-name"),
+        say!("solver-id"),
+        say!("report-area"),
+        say!("report-end-radius"),
+        say!("report-middle"),
+        say!("report-normal"),
+    ];
+    Table { heads, rows: patches.iter().map(row).collect() }
 }

@@ -88,6 +88,7 @@ pub(super) fn write(document: &Document) -> String {
     }
     page += "</div>\n";
     table(&mut page, &say!("report-by-hand"), &document.measures);
+    table(&mut page, &say!("report-solver"), &document.patches);
     table(&mut page, &say!("report-stretches"), &document.stretches);
     table(&mut page, &say!("vessels-heading"), &document.vessels);
     let _ = writeln!(page, "<p class=\"weak\">{}</p>", escaped(&document.line));
@@ -249,6 +250,7 @@ mod tests {
             vessels: Table::default(),
             stretches: Table::default(),
             measures: Table::default(),
+            patches: Table::default(),
             surface: None,
             pictures: Vec::new(),
             plots: Vec::new(),

@@ -46,6 +46,7 @@ pub(super) fn write(document: &Document) -> Vec<u8> {
     let (stretches, vessels) =
         ([60.0, 75.0, 45.0, 50.0, 80.0, 60.0, 50.0, 95.0], [80.0, 70.0, 55.0, 55.0, 55.0, 105.0, 50.0, 45.0]);
     table(&mut pages, &say!("report-by-hand"), &document.measures, &[90.0, 225.0, 115.0, 85.0]);
+    table(&mut pages, &say!("report-solver"), &document.patches, &[95.0, 40.0, 85.0, 75.0, 110.0, 110.0]);
     table(&mut pages, &say!("report-stretches"), &document.stretches, &stretches);
     table(&mut pages, &say!("vessels-heading"), &document.vessels, &vessels);
     file(document, pages)

@@ -300,7 +300,9 @@ impl Job {
                 let pictures = taken.into_iter().map(|(caption, picture)| frame(caption, pixels(picture))).collect();
                 let (name, heading) = (self.name.clone(), heading.clone());
                 let measures = state.measures.to_vec();
-                let command = Command::WriteReport { name, format: *format, heading, axes: *axes, measures, pictures };
+                let patches = state.patches_for_solver();
+                let (format, axes) = (*format, *axes);
+                let command = Command::WriteReport { name, format, heading, axes, measures, patches, pictures };
                 state.ask_for_file(&self.name, command, link);
             }
             What::Picture { is_clear } => {

@@ -13,6 +13,7 @@ report-file = Datei
 report-settings = Einstellungen
 report-numbers = Zahlen
 report-by-hand = Von Hand gemessen
+report-solver = Für einen Löser fertig gemacht: Wand, Ein- und Auslässe
 report-stretches = Enger und weiter als beiderseits davon
 report-view-reduced = Reduziert: { $count ->
     [one] ein Dreieck
@@ -117,6 +118,9 @@ report-measure = Messung
 report-found = Wert
 report-made-on = Gemessen an
 report-middle = Mitte, mm
+report-area = Fläche, mm²
+report-end-radius = Radius, mm
+report-normal = Normale, nach außen
 report-point = ({ $x }; { $y }; { $z })
 report-at = Bei ({ $x }; { $y }; { $z }) mm.
 

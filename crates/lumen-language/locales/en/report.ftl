@@ -13,6 +13,7 @@ report-file = File
 report-settings = Settings
 report-numbers = Numbers
 report-by-hand = Measured by hand
+report-solver = Ready for a solver: wall, inlets and outlets
 report-stretches = Narrower and wider than on either side
 report-view-reduced = Reduced: { $count ->
     [one] one triangle
@@ -124,6 +125,9 @@ report-found = Found
 # On which surface it was measured.
 report-made-on = Made on
 report-middle = Middle, mm
+report-area = Area, mm²
+report-end-radius = Radius, mm
+report-normal = Normal, outwards
 report-point = ({ $x }, { $y }, { $z })
 # After a finding: where it is.
 report-at = At ({ $x }, { $y }, { $z }) mm.

@@ -13,6 +13,7 @@ report-file = Fichier
 report-settings = Réglages
 report-numbers = Valeurs
 report-by-hand = Mesuré à la main
+report-solver = Prêt pour un solveur : paroi, entrées et sorties
 report-stretches = Plus étroit ou plus large que de part et d'autre
 report-view-reduced = Réduite : { $count ->
     [one] { $count } triangle
@@ -117,6 +118,9 @@ report-measure = Mesure
 report-found = Valeur
 report-made-on = Mesuré sur
 report-middle = Milieu, mm
+report-area = Aire, mm²
+report-end-radius = Rayon, mm
+report-normal = Normale, vers l'extérieur
 report-point = ({ $x } ; { $y } ; { $z })
 report-at = À ({ $x } ; { $y } ; { $z }) mm.
 
