@@ -9,7 +9,7 @@ use lumen::prepare::PatchKind;
 use lumen::prepare::cuts::ClipAt;
 use lumen::prepare::ends::Length;
 use lumen::prepare::prepare::Plan;
-use lumen_ui_tests::{DESKTOP, app, drag, offered, open as open_file, says, settle, tube};
+use lumen_ui_tests::{DESKTOP, app, drag, offered, open as open_file, says, seen, settle, tube};
 
 /// Brings a control into sight and presses it.
 fn press(harness: &mut Harness<'_, LumenApp>, role: Role, label: &str) {
@@ -199,4 +199,28 @@ fn cuts_that_are_cancelled_are_left_and_a_level_that_moves_leaves_them() {
     assert_eq!(preparation(&harness).planned.as_ref().unwrap().found.ends.len(), 5);
     press(&mut harness, Role::Button, "Show the level");
     assert!(harness.query_by_role_and_label(Role::Image, "Shaded view").is_some());
+}
+
+#[test]
+fn a_report_has_the_inlets_and_outlets_while_they_are_of_what_is_asked_for() {
+    let (mut harness, memory) = seen(|| app(DESKTOP));
+    settle(&mut harness);
+    press(&mut harness, Role::DisclosureTriangle, "For a solver");
+    press(&mut harness, Role::Button, "Make ready");
+    settle(&mut harness);
+    let report = |harness: &mut Harness<'_, LumenApp>| {
+        for button in ["Save", "Report...", "Save as web page..."] {
+            harness.get_by_role_and_label(Role::Button, button).click();
+            harness.run_steps(3);
+        }
+        String::from_utf8(offered(harness, &memory).1).unwrap()
+    };
+    let page = report(&mut harness);
+    let ready = &preparation(&harness).made.as_ref().unwrap().ready;
+    for patch in &ready.patches {
+        let cells = format!("<td>{}</td><td>{}</td><td>{:.2}</td>", patch.name, patch.id, patch.area_mm2);
+        assert!(page.replace(',', "").contains(&cells), "{cells}");
+    }
+    press(&mut harness, Role::CheckBox, "Extend each end");
+    assert!(!report(&mut harness).contains("outlet_1"));
 }
