@@ -36,8 +36,9 @@ use lumen_mesh::crossing::Face;
 const MARGIN: f32 = 1.5;
 /// Most leaves, and most triangles, that a collapse is tested against.
 const MAX_NEAR: usize = 1 << 15;
-/// So many leaves are tested first, where there are more: they may be enough to refuse.
-const FIRST: usize = 64;
+/// Where more leaves than this are near, so many of them are tested first, then as many times more: they may be enough to refuse.
+const TANGLED: usize = 64;
+const FIRST: usize = 8;
 /// A vertex beside one at which more triangles meet than this stays: each would have to be asked.
 const MAX_FAN: usize = 1 << 12;
 /// Slots, and leaves, that are worked on in one piece when a guard starts.
@@ -337,14 +338,16 @@ impl Guard {
         axis: Option<Vec3A>,
     ) -> bool {
         // In a tangle, where each way is refused, the first of them say so.
-        if near.len() > FIRST {
-            self.gather(rings, planned, &near[..FIRST], corners, axis);
+        let mut first = FIRST;
+        while near.len() > TANGLED && first < near.len() {
+            self.gather(rings, planned, &near[..first], corners, axis);
             let [old, new] = planned.faces(rings, mesh);
             let others = self.found_faces(rings, mesh);
             self.effort += others.len() * new.len();
             if crossings::newly_hit(&old, &new, &others).is_none() {
                 return false;
             }
+            first *= FIRST;
         }
         self.gather(rings, planned, near, corners, axis);
         if self.found.is_empty() && axis.is_some() {
