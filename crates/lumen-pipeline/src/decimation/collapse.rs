@@ -59,6 +59,8 @@ pub(super) struct Surface {
     pub(super) weights: Vec<f32>,
     pub(super) star: OneRing,
     other: OneRing,
+    /// Whose star `other` is.
+    loaded: Option<u32>,
     candidates: Vec<Candidate>,
 }
 
@@ -72,6 +74,7 @@ impl Surface {
             weights: Vec::new(),
             star: OneRing::new(),
             other: OneRing::new(),
+            loaded: None,
             candidates: Vec::new(),
         }
     }
@@ -153,6 +156,7 @@ impl Surface {
         self.star.span();
         self.candidates.clear();
         self.method.offer(&self.star, v, judged, &mut self.candidates);
+        self.candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         let mut stuck = Stuck::Topology;
         while let Some(i) = self.cheapest(v, limits, &mut stuck) {
             let mut candidate = self.candidates[i];
@@ -179,14 +183,18 @@ impl Surface {
         Err(Refusal::Stuck(stuck))
     }
 
-    /// The candidate of least cost, shape included; those that fold or make a sliver are struck out.
+    /// The candidate of least cost, shape included, of equal ones the first around the vertex; those that fold or make a sliver
+    /// are struck out.
     fn cheapest(&mut self, v: u32, limits: Strictness, stuck: &mut Stuck) -> Option<usize> {
         let mut best: Option<(f32, usize)> = None;
         for i in 0..self.candidates.len() {
             let candidate = self.candidates[i];
-            // Shape only adds to the cost.
-            if candidate.cost == f32::INFINITY || best.is_some_and(|(least, _)| candidate.cost >= least) {
+            if candidate.cost == f32::INFINITY {
                 continue;
+            }
+            // Shape only adds to the cost, and what follows costs no less.
+            if best.is_some_and(|(least, _)| candidate.cost > least) {
+                break;
             }
             match self.worst_after(v, &candidate, limits) {
                 None => {
@@ -195,7 +203,8 @@ impl Surface {
                 }
                 Some(worst) => {
                     let cost = candidate.cost + self.method.shape_cost(&self.star, candidate.cost) * (1.0 - worst);
-                    if best.is_none_or(|(least, _)| cost < least) {
+                    let is_before = |other: usize| candidate.to < self.candidates[other].to;
+                    if best.is_none_or(|(least, other)| cost < least || cost == least && is_before(other)) {
                         best = Some((cost, i));
                     }
                 }
@@ -217,10 +226,13 @@ impl Surface {
         Some(worst.min(self.other.worst_after(place - edge, at, turn, quality)?))
     }
 
-    /// Loads the star of `u`, and says where `v` stands in it.
+    /// Loads the star of `u`, if it is not there yet, and says where `v` stands in it.
     fn load_other(&mut self, v: u32, u: u32) -> Option<usize> {
-        self.other.load(&self.rings, u);
-        self.other.span();
+        if self.loaded != Some(u) {
+            self.other.load(&self.rings, u);
+            self.other.span();
+            self.loaded = Some(u);
+        }
         self.other.position(v)
     }
 
@@ -275,12 +287,14 @@ impl Surface {
         self.caps.spend(&self.rings, v, u, self.end(v, u, candidate));
         let end = candidate.place.map(|place| self.rings.at(v) + place);
         self.rings.collapse(v, u);
+        self.loaded = None;
         end.map(|end| self.rings.renew(u, end))
     }
 
     /// Drops the slots that are gone, so that what is left stands close together; those that are kept, in their order.
     pub(super) fn compact(&mut self) -> Vec<u32> {
         let kept = self.rings.compact();
+        self.loaded = None;
         self.method.compact(&kept);
         self.guard.restart(&self.rings);
         self.caps.compact(&kept);

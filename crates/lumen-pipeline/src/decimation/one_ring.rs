@@ -100,14 +100,13 @@ impl OneRing {
         let p = rings.at(v);
         self.count = ring.len();
         self.triangles = if is_open { self.count.saturating_sub(1) } else { self.count };
-        for (i, &entry) in ring.iter().enumerate() {
-            self.entries[i] = entry;
-            self.put(i, rings.at(neighbour(entry)) - p);
-        }
+        self.entries[..ring.len()].copy_from_slice(ring);
         // The first again where the ring closes, and to fill the four that it stands in.
-        if self.count > 0 {
-            let first = self.edge(0);
-            (self.count..(self.count + 1).next_multiple_of(4)).for_each(|i| self.put(i, first));
+        let Some(&first) = ring.first() else { return };
+        let edge = |i: usize| rings.at(neighbour(ring.get(i).copied().unwrap_or(first))) - p;
+        for (c, quad) in self.quads[..self.count / 4 + 1].iter_mut().enumerate() {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|i| edge(4 * c + i));
+            quad.e = [Vec4::new(a.x, b.x, c.x, d.x), Vec4::new(a.y, b.y, c.y, d.y), Vec4::new(a.z, b.z, c.z, d.z)];
         }
     }
 
@@ -142,13 +141,6 @@ impl OneRing {
         }
         self.area = sum(area);
         self.normals = normals.map(|all| Vec4::splat(sum(all)));
-    }
-
-    fn put(&mut self, i: usize, e: Vec3A) {
-        let quad = &mut self.quads[i / 4];
-        quad.e[0][i % 4] = e.x;
-        quad.e[1][i % 4] = e.y;
-        quad.e[2][i % 4] = e.z;
     }
 
     fn quads(&self) -> &[Quad] {

@@ -72,17 +72,9 @@ impl Form {
         sum
     }
 
-    /// Where it is least, drawn towards `anchor`; `None` where there are no planes.
-    fn least(&self, anchor: DVec3) -> Option<DVec3> {
-        let found = anchor - self.solve(self.times(anchor) + self.b)?;
-        found.is_finite().then_some(found)
-    }
-
-    /// Where a new vertex should be that takes the place of the edge from here to `way`: where the form is least, if that
-    /// is near the edge, else where it is least on the edge. `None` where there are no planes.
-    fn place(&self, way: DVec3) -> Option<DVec3> {
-        let found = self.least(way * 0.5)?;
-        Some(if is_near(found, way) { found } else { self.least_on(way) })
+    /// Where it is least, drawn towards `anchor`; no numbers where there are no planes.
+    fn least(&self, anchor: DVec3) -> DVec3 {
+        anchor - self.solve(self.times(anchor) + self.b)
     }
 
     /// Where it is least on the edge from here to `way`, drawn towards its middle.
@@ -93,13 +85,10 @@ impl Form {
         way * if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.5 }
     }
 
-    /// `x` with `A x = right`, with [`PULL`] added to A's diagonal; `None` where A is zero.
-    fn solve(&self, right: DVec3) -> Option<DVec3> {
+    /// `x` with `A x = right`, with [`PULL`] added to A's diagonal; no numbers where A is zero.
+    fn solve(&self, right: DVec3) -> DVec3 {
         let [xx, xy, xz, yy, yz, zz] = self.a;
         let pull = (xx + yy + zz) / 3.0 * PULL;
-        if pull.is_nan() || pull <= 0.0 {
-            return None;
-        }
         // Cholesky's factors; the pull keeps each root real.
         let l11 = (xx + pull).sqrt();
         let (l21, l31) = (xy / l11, xz / l11);
@@ -111,7 +100,7 @@ impl Form {
         let y3 = (right.z - l31 * y1 - l32 * y2) / l33;
         let z = y3 / l33;
         let y = (y2 - l32 * z) / l22;
-        Some(DVec3::new((y1 - l21 * y - l31 * z) / l11, y, z))
+        DVec3::new((y1 - l21 * y - l31 * z) / l11, y, z)
     }
 }
 
@@ -120,6 +109,76 @@ fn is_near(place: DVec3, way: DVec3) -> bool {
     let square = way.length_squared();
     let part = if square > 0.0 { (place.dot(way) / square).clamp(0.0, 1.0) } else { 0.0 };
     (place - way * part).length_squared() <= REACH * REACH * square
+}
+
+/// Edges of a star that are worked on at once.
+const BATCH: usize = 16;
+
+/// What is known of some edges of a star, each number side by side for all of them, so that the processor takes two or more
+/// edges at once.
+#[derive(Default)]
+struct Edges {
+    count: usize,
+    /// Along each.
+    ways: [[f64; BATCH]; 3],
+    /// The form at its end, then the sum of both ends' as seen from the vertex.
+    a: [[f64; BATCH]; 6],
+    b: [[f64; BATCH]; 3],
+    c: [f64; BATCH],
+    area: [f64; BATCH],
+    /// Where that is least; then where the new vertex would be, and the form there.
+    places: [[f64; BATCH]; 3],
+    costs: [f64; BATCH],
+}
+
+impl Edges {
+    fn push(&mut self, way: DVec3, form: &Form) {
+        let i = self.count;
+        self.count += 1;
+        put(&mut self.ways, i, way);
+        self.a.iter_mut().zip(form.a).for_each(|(all, a)| all[i] = a);
+        put(&mut self.b, i, form.b);
+        (self.c[i], self.area[i]) = (form.c, form.area);
+    }
+
+    fn form(&self, i: usize) -> Form {
+        Form { a: [0, 1, 2, 3, 4, 5].map(|k| self.a[k][i]), b: get(&self.b, i), c: self.c[i], area: self.area[i] }
+    }
+
+    /// Adds the form of the vertex to each, and finds where the sum is least, drawn towards the middle of the edge.
+    fn sum(&mut self, own: &Form) {
+        for i in 0..self.count.min(BATCH) {
+            let way = get(&self.ways, i);
+            let form = own.plus(&self.form(i).seen_from(-way));
+            self.a.iter_mut().zip(form.a).for_each(|(all, a)| all[i] = a);
+            put(&mut self.b, i, form.b);
+            (self.c[i], self.area[i]) = (form.c, form.area);
+            put(&mut self.places, i, form.least(way * 0.5));
+        }
+    }
+
+    /// Where a new vertex should be that takes the place of edge `i`: where the form is least, if that is near the edge, else
+    /// where it is least on the edge. `None` where there are no planes.
+    fn place(&self, i: usize) -> Option<DVec3> {
+        let (found, way) = (get(&self.places, i), get(&self.ways, i));
+        let place = || if is_near(found, way) { found } else { self.form(i).least_on(way) };
+        found.is_finite().then(place)
+    }
+
+    /// Works out the forms at the places.
+    fn weigh(&mut self) {
+        for i in 0..self.count.min(BATCH) {
+            self.costs[i] = self.form(i).at(get(&self.places, i));
+        }
+    }
+}
+
+fn get(all: &[[f64; BATCH]; 3], i: usize) -> DVec3 {
+    DVec3::new(all[0][i], all[1][i], all[2][i])
+}
+
+fn put(all: &mut [[f64; BATCH]; 3], i: usize, v: DVec3) {
+    (all[0][i], all[1][i], all[2][i]) = (v.x, v.y, v.z);
 }
 
 /// The method's state.
@@ -132,6 +191,7 @@ pub(super) struct Quadric {
     vertices: f64,
     /// Of the vertex judged last.
     candidates: Vec<Candidate>,
+    edges: Edges,
 }
 
 impl Quadric {
@@ -180,33 +240,45 @@ impl Method for Quadric {
         // What the planes do not know: how far the border is from the line that takes its place.
         let off = border.map(|[a, b]| distance_to_segment(star.edge(a), star.edge(b)));
         let least = off.map_or(0.0, |off| self.priority(off));
-        let own = &self.forms[v as usize];
-        self.candidates.clear();
+        let Self { forms, candidates, edges, .. } = self;
+        candidates.clear();
         let mut judged = Judged { distance: f32::INFINITY, priority: f32::INFINITY, along, is_held: false };
-        for (to, &entry) in entries.iter().enumerate() {
-            if !judged.allows(to) {
-                continue;
+        let unjudged = judged;
+        let mut allowed = (0..entries.len()).filter(|&to| unjudged.allows(to)).peekable();
+        while allowed.peek().is_some() {
+            edges.count = 0;
+            let mut tos = [0; BATCH];
+            for to in allowed.by_ref().take(BATCH) {
+                tos[edges.count] = to;
+                edges.push(star.edge(to).as_dvec3(), &forms[neighbour(entries[to]) as usize]);
             }
-            let u = neighbour(entry);
-            let way = star.edge(to).as_dvec3();
-            let form = own.plus(&self.forms[u as usize].seen_from(-way));
-            let stays = rings.stays(u) || rings.is_open(u) && !is_open || rings.is_on_border(u);
-            let place = if stays { None } else { form.place(way) };
-            let candidate = |place: Option<DVec3>| {
-                let cost = form.at(place.unwrap_or(way));
-                let distance = if form.area > 0.0 { (cost / form.area).sqrt() as f32 } else { 0.0 };
-                let distance = off.map_or(distance, |off| distance.max(off));
-                let priority = least.max(cost.sqrt() as f32);
-                let place = place.map(DVec3::as_vec3a);
-                Candidate { distance, priority, cost: cost as f32, to, place }
-            };
-            let best = candidate(place);
-            self.candidates.push(best);
-            if is_last && place.is_some() {
-                self.candidates.push(candidate(None));
+            edges.sum(&forms[v as usize]);
+            let mut moves = [false; BATCH];
+            for i in 0..edges.count {
+                let u = neighbour(entries[tos[i]]);
+                let stays = rings.stays(u) || rings.is_open(u) && !is_open || rings.is_on_border(u);
+                let place = if stays { None } else { edges.place(i) };
+                moves[i] = place.is_some();
+                put(&mut edges.places, i, place.unwrap_or(get(&edges.ways, i)));
             }
-            if best.priority < judged.priority {
-                (judged.priority, judged.distance) = (best.priority, best.distance);
+            edges.weigh();
+            for i in 0..edges.count {
+                let candidate = |cost: f64, place: Option<DVec3>| {
+                    let area = edges.area[i];
+                    let distance = if area > 0.0 { (cost / area).sqrt() as f32 } else { 0.0 };
+                    let distance = off.map_or(distance, |off| distance.max(off));
+                    let priority = least.max(cost.sqrt() as f32);
+                    let place = place.map(DVec3::as_vec3a);
+                    Candidate { distance, priority, cost: cost as f32, to: tos[i], place }
+                };
+                let best = candidate(edges.costs[i], moves[i].then(|| get(&edges.places, i)));
+                candidates.push(best);
+                if is_last && moves[i] {
+                    candidates.push(candidate(edges.form(i).at(get(&edges.ways, i)), None));
+                }
+                if best.priority < judged.priority {
+                    (judged.priority, judged.distance) = (best.priority, best.distance);
+                }
             }
         }
         judged
@@ -227,7 +299,7 @@ impl Method for Quadric {
     fn level(&self, v: u32, u: u32, way: Vec3A, place: Vec3A, normal: Vec3A, offset: f32) -> Option<Vec3A> {
         let (way, place, normal) = (way.as_dvec3(), place.as_dvec3(), normal.as_dvec3());
         let form = self.forms[v as usize].plus(&self.forms[u as usize].seen_from(-way));
-        let direction = form.solve(normal)?;
+        let direction = form.solve(normal);
         let step = (f64::from(offset) - normal.dot(place)) / normal.dot(direction);
         let found = place + direction * step;
         let is_near = (found - place).length() < MAX_LEVELLED * way.length();

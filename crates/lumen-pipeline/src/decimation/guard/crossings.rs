@@ -2,45 +2,49 @@
 
 use lumen_mesh::crossing::{Face, cross_at_all};
 
-/// Which triangles of two lists, or of the first alone, run into each other.
-pub(super) struct Crossings {
-    /// How many of the first.
-    own: usize,
-    /// Which of the second.
-    others: Vec<bool>,
+/// Whether one of the faces in `own` runs into another of them, or into one of `others`.
+pub(super) fn any(own: &[Face], others: &[Face]) -> bool {
+    own.iter().enumerate().any(|(i, face)| others.iter().chain(&own[i + 1..]).any(|other| cross_at_all(face, other)))
 }
 
-impl Crossings {
-    pub(super) fn between(own: &[Face], others: &[Face]) -> Self {
-        let mut is_hit = vec![false; others.len()];
-        let mut hits = vec![false; own.len()];
-        for (i, face) in own.iter().enumerate() {
-            for (j, other) in others.iter().enumerate() {
-                if cross_at_all(face, other) {
-                    hits[i] = true;
-                    is_hit[j] = true;
-                }
-            }
-            for j in i + 1..own.len() {
-                if cross_at_all(face, &own[j]) {
-                    hits[i] = true;
-                    hits[j] = true;
-                }
+/// How many triangles run into `others` once `old` has become `new` that are new or did not before, and which of `new` do;
+/// `None` where they are more than `old` can make up for.
+pub(super) fn newly_hit(old: &[Face], new: &[Face], others: &[Face]) -> Option<(usize, Vec<bool>)> {
+    let mut hits = vec![false; new.len()];
+    let mut more = 0;
+    for other in others {
+        let mut is_hit = false;
+        for (hit, face) in hits.iter_mut().zip(new).filter(|(hit, _)| !**hit) {
+            *hit = cross_at_all(face, other);
+            more += usize::from(*hit);
+            is_hit |= *hit;
+        }
+        is_hit = is_hit || hits.iter().zip(new).any(|(hit, face)| *hit && cross_at_all(face, other));
+        more += usize::from(is_hit && !old.iter().any(|face| cross_at_all(face, other)));
+        if more > old.len() {
+            return None;
+        }
+    }
+    Some((more, hits))
+}
+
+/// Whether no more triangles cross once `old` has become `new` than did among `others`: each of `old` that crossed makes up for
+/// one that is new, of `new` or of `others`.
+pub(super) fn are_no_more(old: &[Face], new: &[Face], others: &[Face]) -> bool {
+    let Some((mut more, mut hits)) = newly_hit(old, new, others) else { return false };
+    for i in 0..new.len() {
+        for j in i + 1..new.len() {
+            if !(hits[i] && hits[j]) && cross_at_all(&new[i], &new[j]) {
+                more += usize::from(!hits[i]) + usize::from(!hits[j]);
+                (hits[i], hits[j]) = (true, true);
             }
         }
-        Self { own: hits.into_iter().filter(|&hit| hit).count(), others: is_hit }
     }
-
-    pub(super) fn is_none(&self) -> bool {
-        self.own == 0
-    }
-
-    /// Whether no more triangles cross than did: each that is gone makes up for one that is new, of the first list or of
-    /// the second.
-    pub(super) fn is_within(&self, before: &Self) -> bool {
-        let newly_hit = self.others.iter().zip(&before.others).filter(|&(&after, &before)| after && !before).count();
-        self.own + newly_hit <= before.own
-    }
+    let crossed = |&i: &usize| {
+        others.iter().chain(&old[i + 1..]).any(|other| cross_at_all(&old[i], other))
+            || old[..i].iter().any(|other| cross_at_all(other, &old[i]))
+    };
+    (0..old.len()).filter(crossed).take(more).count() == more
 }
 
 #[cfg(test)]
@@ -63,24 +67,24 @@ mod tests {
     #[test]
     fn a_triangle_that_runs_into_three_is_one_of_its_own_and_three_others() {
         let others = [1.0, 2.0, 3.0, 30.0].map(|x| standing(10 + x as u32, x));
-        let found = Crossings::between(&[lying(0, 10.0)], &others);
-        assert_eq!((found.own, found.others.as_slice()), (1, &[true, true, true, false][..]));
-        let none = Crossings::between(&[lying(0, 0.5)], &others);
-        assert!(none.is_none() && !found.is_none());
-        let two = Crossings::between(&[lying(0, 10.0), standing(1, 4.0)], &[]);
-        assert_eq!(two.own, 2);
+        assert!(any(&[lying(0, 10.0)], &others) && !any(&[lying(0, 0.5)], &others));
+        assert!(any(&[lying(0, 10.0), standing(1, 4.0)], &[]));
+        // So as many have to have crossed before: here those that lie upon each other.
+        let before = [5, 6, 7, 8].map(|number| lying(number, 0.5));
+        assert!(!are_no_more(&before[..3], &[lying(0, 10.0)], &others));
+        assert!(are_no_more(&before, &[lying(0, 10.0)], &others));
     }
 
     #[test]
     fn what_is_gone_makes_up_for_what_is_new_and_no_more() {
         let others = [1.0, 2.0, 3.0].map(|x| standing(10 + x as u32, x));
-        let reaching = |to: f32| Crossings::between(&[lying(0, to)], &others);
-        let (one, two, all) = (reaching(1.8), reaching(2.8), reaching(10.0));
-        assert!(one.is_within(&one) && one.is_within(&two) && two.is_within(&all));
+        let [one, two, all] = [1.8, 2.8, 10.0].map(|x| [lying(0, x)]);
+        let within = |after: &[Face], before: &[Face]| are_no_more(before, after, &others);
+        assert!(within(&one, &one) && within(&one, &two) && within(&two, &all));
         // The same triangle of its own, but one more of the others.
-        assert!(!two.is_within(&one) && !all.is_within(&one));
-        let both = Crossings::between(&[lying(0, 1.8), lying(1, 1.7)], &others);
+        assert!(!within(&two, &one) && !within(&all, &one));
+        let both = [lying(0, 1.8), lying(1, 1.7)];
         // One of two crosses no more, and another of the others does now.
-        assert!(two.is_within(&both) && !all.is_within(&both));
+        assert!(within(&two, &both) && !within(&all, &both));
     }
 }

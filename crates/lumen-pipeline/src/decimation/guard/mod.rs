@@ -24,7 +24,6 @@ mod tree;
 
 use glam::Vec3A;
 
-use self::crossings::Crossings;
 use self::pairs::Pairs;
 use self::sheet::{FACING, Sheet, faces, turned};
 use self::tree::{Leaves, Patch, SLACK, Tree, angle};
@@ -37,6 +36,9 @@ use lumen_mesh::crossing::Face;
 const MARGIN: f32 = 1.5;
 /// Most leaves, and most triangles, that a collapse is tested against.
 const MAX_NEAR: usize = 1 << 15;
+/// Where more leaves than this are near, so many of them are tested first, then as many times more: they may be enough to refuse.
+const TANGLED: usize = 64;
+const FIRST: usize = 8;
 /// A vertex beside one at which more triangles meet than this stays: each would have to be asked.
 const MAX_FAN: usize = 1 << 12;
 /// Slots, and leaves, that are worked on in one piece when a guard starts.
@@ -104,6 +106,30 @@ impl Planned<'_> {
     fn is_centre(&self, slot: u32) -> bool {
         slot == self.v || self.other.is_some() && slot == self.u
     }
+
+    /// The triangles that go or change, each once, and what becomes of them.
+    fn faces(&self, rings: &Rings, mesh: &TriMesh) -> [Vec<Face>; 2] {
+        let Self { v, u, .. } = *self;
+        let moves = self.other.is_some();
+        let end = if moves { rings.in_mm(self.end) } else { rings.place(u, mesh) };
+        // Around v all, around u the others, where it moves.
+        let of_u = rings.pairs(u).filter(|pair| moves && !pair.contains(&v)).map(|[a, b]| [u, a, b]);
+        let old: Vec<[u32; 3]> = rings.pairs(v).map(|[a, b]| [v, a, b]).chain(of_u).collect();
+        let lives = |corners: &&[u32; 3]| !(corners.contains(&u) && corners.contains(&v));
+        let after = |&corners: &[u32; 3]| {
+            let is_end = corners.map(|slot| slot == u || slot == v);
+            let mut face = face(corners.map(|slot| if slot == v { u } else { slot }), rings, mesh);
+            face.corners.iter_mut().zip(is_end).filter(|(_, is_end)| *is_end).for_each(|(corner, _)| *corner = end);
+            face
+        };
+        let new = old.iter().filter(lives).map(after).collect();
+        [old.into_iter().map(|corners| face(corners, rings, mesh)).collect(), new]
+    }
+}
+
+/// A triangle of slots.
+fn face(corners: [u32; 3], rings: &Rings, mesh: &TriMesh) -> Face {
+    Face { vertices: corners.map(|s| rings.nodes[s as usize]), corners: corners.map(|s| rings.place(s, mesh)) }
 }
 
 impl Guard {
@@ -264,36 +290,40 @@ impl Guard {
             cosine = cosine.min(other.least_cosine(planned.end - rings.at(u), at, axis));
         }
         self.grow(leaf, low, high, cosine);
-        let mut near = self.leaves_with(leaf, (low, high));
         let [least, most] = &mut self.boxes[leaf as usize];
         (*least, *most) = (least.min(low), most.max(high));
         let reach = (planned.end - low).max(high - planned.end).max_element();
         let reaches = &mut self.leaves.reaches[leaf as usize];
         *reaches = reaches.max(reach);
         let axis = (cosine > FACING).then_some(axis);
-        let is_known = near.len() <= MAX_NEAR;
-        near.retain(|&other| {
-            let [least, most] = self.boxes[other as usize];
-            (least.cmple(high) & most.cmpge(low)).all()
-        });
-        let allowed =
-            is_known && (near.is_empty() || self.crossings_allow(rings, mesh, planned, &near, (low, high), axis));
+        let Some(near) = self.leaves_with(leaf, (low, high)) else { return false };
+        let allowed = near.is_empty() || self.crossings_allow(rings, mesh, planned, &near, (low, high), axis);
         self.near = near;
         allowed
     }
 
-    /// The pairs of a leaf, at least those whose triangles may reach into a box; where there are more than [`MAX_NEAR`],
-    /// one more than these and not all.
-    fn leaves_with(&mut self, leaf: u32, (low, high): (Vec3A, Vec3A)) -> Vec<u32> {
+    /// The pairs of a leaf whose triangles may reach into a box; `None` where a crowded leaf has more than [`MAX_NEAR`].
+    fn leaves_with(&mut self, leaf: u32, (low, high): (Vec3A, Vec3A)) -> Option<Vec<u32>> {
         let mut near = std::mem::take(&mut self.near);
         near.clear();
+        let boxes = &self.boxes;
+        let reaches_in = |&other: &u32| {
+            let [least, most] = boxes[other as usize];
+            (least.cmple(high) & most.cmpge(low)).all()
+        };
         if self.pairs.is_crowded(leaf) {
             self.tree.leaves_near((low, high), &mut near, MAX_NEAR, |_, _| false);
+            self.effort += near.len();
+            if near.len() > MAX_NEAR {
+                self.near = near;
+                return None;
+            }
+            near.retain(reaches_in);
         } else {
-            near.extend(self.pairs.of(leaf));
+            near.extend(self.pairs.of(leaf).filter(reaches_in));
+            self.effort += near.len();
         }
-        self.effort += near.len();
-        near
+        Some(near)
     }
 
     /// [`Self::allows`], triangle by triangle, against those of the leaves in `near`. All new triangles look the way of
@@ -304,12 +334,22 @@ impl Guard {
         mesh: &TriMesh,
         planned: &Planned,
         near: &[u32],
-        (low, high): (Vec3A, Vec3A),
+        corners: (Vec3A, Vec3A),
         axis: Option<Vec3A>,
     ) -> bool {
-        let Planned { v, u, .. } = *planned;
-        let moves = planned.other.is_some();
-        self.gather(rings, planned, near, (low, high), axis);
+        // In a tangle, where each way is refused, the first of them say so.
+        let mut first = FIRST;
+        while near.len() > TANGLED && first < near.len() {
+            self.gather(rings, planned, &near[..first], corners, axis);
+            let [old, new] = planned.faces(rings, mesh);
+            let others = self.found_faces(rings, mesh);
+            self.effort += others.len() * new.len();
+            if crossings::newly_hit(&old, &new, &others).is_none() {
+                return false;
+            }
+            first *= FIRST;
+        }
+        self.gather(rings, planned, near, corners, axis);
         if self.found.is_empty() && axis.is_some() {
             return true;
         }
@@ -319,32 +359,19 @@ impl Guard {
         if self.found.len() > MAX_NEAR {
             return false;
         }
-        let place = |s: u32| rings.place(s, mesh);
-        let end = if moves { rings.in_mm(planned.end) } else { place(u) };
-        let node = |s: u32| if s == v { rings.nodes[u as usize] } else { rings.nodes[s as usize] };
-        let face = |corners: [u32; 3]| Face {
-            vertices: corners.map(node),
-            corners: corners.map(|s| if s == u || s == v { end } else { place(s) }),
-        };
-        // Those around both, each once: around v all, around u the others, where it moves.
-        let of_u = rings.pairs(u).filter(|pair| moves && !pair.contains(&v)).map(|[a, b]| [u, a, b]);
-        let old: Vec<[u32; 3]> = rings.pairs(v).map(|[a, b]| [v, a, b]).chain(of_u).collect();
-        let lives = |corners: &&[u32; 3]| !(corners.contains(&u) && corners.contains(&v));
-        let new_faces: Vec<Face> = old.iter().filter(lives).map(|&corners| face(corners)).collect();
-        let old_face = |corners: [u32; 3]| Face {
-            vertices: corners.map(|s| rings.nodes[s as usize]),
-            corners: corners.map(place),
-        };
-        let others: Vec<Face> = self.found.iter().map(|&corners| old_face(corners)).collect();
-        self.effort += others.len() * new_faces.len();
-        let after = Crossings::between(&new_faces, &others);
-        if after.is_none() {
+        let [old, new] = planned.faces(rings, mesh);
+        let others = self.found_faces(rings, mesh);
+        self.effort += others.len() * new.len();
+        if !crossings::any(&new, &others) {
             return true;
         }
-        let old: Vec<Face> = old.into_iter().map(old_face).collect();
         self.effort += others.len() * old.len();
-        let before = Crossings::between(&old, &others);
-        after.is_within(&before)
+        crossings::are_no_more(&old, &new, &others)
+    }
+
+    /// The triangles in `found`.
+    fn found_faces(&self, rings: &Rings, mesh: &TriMesh) -> Vec<Face> {
+        self.found.iter().map(|&corners| face(corners, rings, mesh)).collect()
     }
 
     /// Where `found` has a triangle at a vertex of a collapse's rim, the surface folds there, and what looks the same way
@@ -386,30 +413,37 @@ impl Guard {
             if self.found.len().max(self.alike.len()) > 4 * MAX_NEAR {
                 break;
             }
-            for &s in self.leaves.slots(leaf).iter().filter(|&&s| !planned.is_centre(s)) {
+            let reach = Vec3A::splat(self.leaves.reaches[leaf as usize]);
+            let (lowest, highest) = (low - reach, high + reach);
+            for &s in self.leaves.slots(leaf) {
                 let p = rings.at(s);
-                let reach = Vec3A::splat(self.leaves.reaches[leaf as usize]);
-                if (p.cmpgt(high + reach) | p.cmplt(low - reach)).any() {
+                if (p.cmpgt(highest) | p.cmplt(lowest)).any() || planned.is_centre(s) {
                     continue;
                 }
-                for [a, b] in rings.pairs(s) {
-                    let (q, r) = (rings.at(a), rings.at(b));
+                let mut ring = rings.around(s).iter().map(|&entry| neighbour(entry));
+                let first = if rings.is_open(s) { ring.next() } else { ring.clone().next_back() };
+                let Some(mut a) = first else { continue };
+                let mut q = rings.at(a);
+                for b in ring {
+                    let r = rings.at(b);
                     let apart = p.min(q).min(r).cmpgt(high) | p.max(q).max(r).cmplt(low);
-                    if apart.any() || planned.is_centre(a) || planned.is_centre(b) {
-                        continue;
+                    if !apart.any() && !planned.is_centre(a) && !planned.is_centre(b) {
+                        if axis.is_none_or(|axis| !faces([p, q, r], axis)) {
+                            self.found.push(turned([s, a, b]));
+                        } else if !self.is_closed {
+                            self.alike.push(turned([s, a, b]));
+                        }
                     }
-                    if axis.is_none_or(|axis| !faces([p, q, r], axis)) {
-                        self.found.push(turned([s, a, b]));
-                    } else if !self.is_closed {
-                        self.alike.push(turned([s, a, b]));
-                    }
+                    (a, q) = (b, r);
                 }
             }
         }
         if let Some(axis) = axis.filter(|_| !self.alike.is_empty()) {
+            self.alike.sort_unstable();
+            self.alike.dedup();
             let of: Vec<u32> = planned.centres().collect();
-            self.sheet.follow(rings, &of, axis, (low, high));
-            self.found.extend(self.alike.iter().filter(|triangle| !self.sheet.has_triangle(triangle)));
+            self.sheet.follow(rings, &of, axis, (low, high), &mut self.alike);
+            self.found.append(&mut self.alike);
         }
         self.found.sort_unstable();
         self.found.dedup();

@@ -25,7 +25,8 @@ pub(super) struct Sheet {
     offsets: Vec<u32>,
     beside: Vec<u32>,
     queue: Vec<u32>,
-    triangles: Vec<[u32; 3]>,
+    /// The triangles of a sheet around a collapse, and the corner of each beyond the side that led there.
+    triangles: Vec<([u32; 3], u32)>,
 }
 
 impl Sheet {
@@ -85,29 +86,48 @@ impl Sheet {
         self.marks[leaf as usize] == self.walk
     }
 
-    /// Finds the triangles of the sheet around a collapse, as far as they reach into its box: those that look as `axis`
-    /// does and hang together, by edges, with the stars of `of`. [`Self::has_triangle`] knows them until the next walk.
-    pub(super) fn follow(&mut self, rings: &Rings, of: &[u32], axis: Vec3A, (low, high): (Vec3A, Vec3A)) {
+    /// Strikes out of `alike`, ascending triangles with their least corner first, those of the sheet around a collapse: what
+    /// looks as `axis` does and hangs together, by edges, with the stars of `of`, as far as it reaches into the box.
+    pub(super) fn follow(
+        &mut self,
+        rings: &Rings,
+        of: &[u32],
+        axis: Vec3A,
+        corners: (Vec3A, Vec3A),
+        alike: &mut Vec<[u32; 3]>,
+    ) {
         self.triangles.clear();
         for &v in of {
-            for [a, b] in rings.pairs(v) {
-                self.step(rings, of, [a, b], axis, (low, high));
+            for side in rings.pairs(v) {
+                self.step(rings, of, side, axis, corners, alike);
             }
         }
         let mut at = 0;
-        while at < self.triangles.len() && self.triangles.len() < MAX_LEAVES {
-            let [a, b, c] = self.triangles[at];
+        while at < self.triangles.len() && self.triangles.len() < MAX_LEAVES && !alike.is_empty() {
+            let ([a, b, c], apex) = self.triangles[at];
             at += 1;
-            for side in [[a, b], [b, c], [c, a]] {
-                self.step(rings, of, side, axis, (low, high));
+            // The third side is the one that led here.
+            for side in [[a, b], [b, c], [c, a]].into_iter().filter(|side| side.contains(&apex)) {
+                self.step(rings, of, side, axis, corners, alike);
             }
         }
     }
 
     /// Adds the triangle beyond a side, if it is part of the sheet.
-    fn step(&mut self, rings: &Rings, of: &[u32], [a, b]: [u32; 2], axis: Vec3A, (low, high): (Vec3A, Vec3A)) {
+    fn step(
+        &mut self,
+        rings: &Rings,
+        of: &[u32],
+        [a, b]: [u32; 2],
+        axis: Vec3A,
+        (low, high): (Vec3A, Vec3A),
+        alike: &mut Vec<[u32; 3]>,
+    ) {
         // It runs from b to a.
-        let Some(c) = rings.pairs(a).find_map(|[c, next]| (next == b).then_some(c)) else { return };
+        let ring = rings.around(a);
+        let Some(at) = ring.iter().position(|&entry| neighbour(entry) == b) else { return };
+        let before = if at > 0 { ring.get(at - 1) } else { ring.last().filter(|_| !rings.is_open(a)) };
+        let Some(c) = before.map(|&entry| neighbour(entry)) else { return };
         if of.contains(&a) || of.contains(&b) || of.contains(&c) {
             return;
         }
@@ -117,14 +137,12 @@ impl Sheet {
             return;
         }
         let triangle = turned([a, c, b]);
-        if !self.triangles.contains(&triangle) {
-            self.triangles.push(triangle);
+        if !self.triangles.iter().any(|&(known, _)| known == triangle) {
+            self.triangles.push((triangle, c));
+            if let Ok(found) = alike.binary_search(&triangle) {
+                alike.remove(found);
+            }
         }
-    }
-
-    /// Whether the last walk found the triangle, its least corner first, to be part of the sheet.
-    pub(super) fn has_triangle(&self, triangle: &[u32; 3]) -> bool {
-        self.triangles.contains(triangle)
     }
 }
 

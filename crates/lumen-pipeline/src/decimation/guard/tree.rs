@@ -304,19 +304,22 @@ impl Tree {
         is_out: impl Fn(Option<u32>, &Patch) -> bool,
     ) {
         self.stack.clear();
-        self.stack.push((self.levels.len() - 1, 0));
+        self.stack.push((self.levels.len(), 0));
         while let Some((level, at)) = self.stack.pop() {
-            let Some(patch) = self.levels[level].get(at as usize) else { continue };
-            if !patch.overlaps(low, high) || is_out((level == 0).then_some(at), patch) {
-                continue;
-            }
-            if level == 0 {
+            let below = &self.levels[level - 1];
+            let first = at as usize * WIDTH;
+            for (at, patch) in (first as u32..).zip(&below[first..below.len().min(first + WIDTH)]) {
+                if !patch.overlaps(low, high) || is_out((level == 1).then_some(at), patch) {
+                    continue;
+                }
+                if level > 1 {
+                    self.stack.push((level - 1, at));
+                    continue;
+                }
                 near.push(at);
                 if near.len() > most {
                     return;
                 }
-            } else {
-                self.stack.extend((0..WIDTH as u32).map(|i| (level - 1, at * WIDTH as u32 + i)));
             }
         }
     }
