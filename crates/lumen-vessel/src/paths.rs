@@ -6,7 +6,7 @@
 //! until none is left that is far enough from the rest to be a vessel.
 
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, HashSet};
 
 use glam::Vec3;
 
@@ -233,18 +233,16 @@ impl Graph {
     /// Whether by links, in the slab across `along` that is as thick as a ball, there is one more than `widest` from its middle.
     fn reaches_beside(&self, ball: u32, along: Vec3, widest: f32) -> bool {
         let Ball { centre, radius } = self.balls[ball as usize];
-        let mut seen = vec![ball];
-        let mut next = 0;
-        while let Some(&at) = seen.get(next) {
-            next += 1;
+        let (mut seen, mut pending) = (HashSet::from([ball]), vec![ball]);
+        while let Some(at) = pending.pop() {
             for &(other, ..) in self.links(at) {
                 let to = self.balls[other as usize].centre - centre;
                 let height = to.dot(along);
-                if height.abs() <= radius && !seen.contains(&other) {
+                if height.abs() <= radius && seen.insert(other) {
                     if (to - along * height).length() > widest {
                         return true;
                     }
-                    seen.push(other);
+                    pending.push(other);
                 }
             }
         }
