@@ -1,7 +1,5 @@
 //! All of it in one call: the largest piece, uncross, clip, extend, cap, remesh, check.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -10,6 +8,7 @@ use super::check::{Fate, check};
 use super::clip::{Clipped, clip};
 use super::ends::{
     EndError, EndPlane, Length, OpenEnd, check_surface, names, open_ends, place, planes_of_uneven_openings, propose,
+    skeleton, unfold,
 };
 use super::extend::{ExtendError, Extended, extend};
 use super::notes::{Note, PrepareError, Reason};
@@ -18,10 +17,9 @@ use super::uncross::{Uncrossed, uncross_in_slices};
 use super::{Patch, PatchKind, Patched};
 use lumen_mesh::mending::fill::fill;
 use lumen_mesh::mending::split::split;
+use lumen_mesh::mending::wall::{Wall, WallFound, find_in_slices};
 use lumen_mesh::task::Yielder;
-use lumen_mesh::{
-    FlatCap, SurfaceIndex, Topology, TriMesh, Vec3, boundary_loops, compacted, components, flat_caps, without_caps,
-};
+use lumen_mesh::{FlatCap, Topology, TriMesh, Vec3, boundary_loops, compacted, components, flat_caps, without_caps};
 use lumen_vessel::width::widths;
 use lumen_vessel::{End, Tree};
 
@@ -67,6 +65,11 @@ impl Plan {
         Self { uncross: true, clip, extend, cap: Some(CapKind::Planar), remesh: Some(Sizing::default()) }
     }
 
+    /// Whether something is asked for that only a vessel has: ends.
+    fn is_of_vessels(&self) -> bool {
+        self.clip.is_some() || self.extend.is_some() || self.cap.is_some()
+    }
+
     /// Refuses lengths that make no sense.
     ///
     /// # Errors
@@ -86,7 +89,7 @@ impl Plan {
 /// A surface that was prepared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prepared {
-    /// The surface in patches, with their areas.
+    /// The surface in patches, with their areas. Every vertex is of a triangle.
     pub surface: Patched,
     /// What a volume mesher would say.
     pub fate: Fate,
@@ -108,7 +111,11 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     check_surface(mesh)?;
     let mut notes = Vec::new();
     // Edges of more than two triangles are no place to part surfaces at, and no mesher takes them.
-    let (mesh, others) = largest_piece(split(mesh).mesh);
+    let mut mesh = split(mesh).mesh;
+    if plan.is_of_vessels() {
+        mesh = without_wall(mesh, &mut notes, &yielder.part(0.0..0.05)).await?;
+    }
+    let (mesh, others) = largest_piece(mesh);
     if others > 0 {
         notes.push(Note::LeftOut { others });
     }
@@ -127,7 +134,8 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     let mut surface = if plan.extend.is_some() || plan.cap.is_some() {
         // What is flat and closed is an end like those that are open.
         let (walls, had_caps) = opened(&mesh);
-        let (mesh, ends) = without_holes(&largest_piece(walls).0, &mut notes)?;
+        let (mut mesh, ends) = without_holes(&largest_piece(walls).0, &mut notes)?;
+        unfold(&mut mesh, &ends);
         if ends.is_empty() {
             notes.push(Note::NoEnds);
         }
@@ -164,15 +172,30 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
         measure(&mut surface);
     }
     yielder.rest(0.95).await;
+    surface.mesh = compacted(&surface.mesh.positions, surface.mesh.triangles);
     let fate = check(&surface);
     Ok(Prepared { surface, fate, notes, crossing, remeshed })
 }
 
+/// The lumen of a wall with two sides; any other surface as it is.
+async fn without_wall(mesh: TriMesh, notes: &mut Vec<Note>, yielder: &Yielder) -> Result<TriMesh, PrepareError> {
+    if !Topology::new(mesh.positions.len(), &mesh.triangles).is_consistent() {
+        return Ok(mesh);
+    }
+    let WallFound { wall, lumen } = find_in_slices(&mesh, None, true, yielder).await;
+    match (wall, lumen) {
+        (None, _) => Ok(mesh),
+        (Some(Wall { thickness_mm, .. }), None) => Err(PrepareError::Wall { thickness_mm }),
+        (Some(Wall { thickness_mm, .. }), Some(lumen)) => {
+            notes.push(Note::Lumen { thickness_mm });
+            Ok(lumen.mesh)
+        }
+    }
+}
+
 /// The surface cut at its ends, as many of them as can be.
 async fn clipped(mesh: TriMesh, at: ClipAt, notes: &mut Vec<Note>, yielder: &Yielder) -> Result<TriMesh, PrepareError> {
-    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-    let index = Arc::new(SurfaceIndex::new(&mesh.positions, &mesh.triangles));
-    let tree = Tree::with_topology_in_slices(&mesh, &topology, index, &yielder.part(0.0..0.8)).await?;
+    let tree = skeleton(&mesh, &yielder.part(0.0..0.8)).await?;
     let planes = match at {
         ClipAt::Round => {
             let proposal = propose(&mesh, &tree)?;
@@ -399,3 +422,6 @@ fn measure(surface: &mut Patched) {
     let areas = surface.areas_mm2();
     surface.patches.iter_mut().zip(areas).for_each(|(patch, area)| patch.area_mm2 = area);
 }
+
+#[cfg(test)]
+mod tests;
