@@ -5,7 +5,7 @@
 
 Python is one with gmsh, meshio, numpy, pymeshfix, pymeshlab, pytetwild, pyvista and tetgen; LUMEN_PROGRAM names the program
 if it is not target/release/lumen. Without files: those of LUMEN_DATA/real, and the phantoms; with --family those that
-`families.py` makes, without the peers. --fast leaves out fTetWild. A line for each file: the ends,
+`families.py` makes, without the peers. --fast leaves out fTetWild and the peers. A line for each file: the ends,
 triangles, mean quality, share of triangles with an angle under 30 degrees, and the cells that each mesher fills the surface
 with, without repair; "no" where it does not, or where the volume differs by more than 1 %. Nonzero exit status if Lumen, TetGen
 or Gmsh refuses a surface.
@@ -180,8 +180,8 @@ def made(make, number, folder):
 
 def main():
     names = [name for name in sys.argv[1:] if not name.startswith("--")]
-    is_family, fillers = "--family" in sys.argv, [tetgen, gmsh] + ["--fast" in sys.argv or ftetwild]
-    fillers = [fill for fill in fillers if fill is not True]
+    is_family, is_fast = "--family" in sys.argv, "--fast" in sys.argv
+    fillers, has_peers = [tetgen, gmsh, *([] if is_fast else [ftetwild])], not (is_family or is_fast)
     print(f"{'file':44} ends triangles quality <30deg   s | tetgen    gmsh ftetwild | tetgen    gmsh (pymeshfix + pymeshlab)")
     failed = count = 0
     if is_family:
@@ -193,7 +193,7 @@ def main():
     for name, source in sources:
         with tempfile.TemporaryDirectory() as into, tempfile.TemporaryDirectory() as beside:
             source = made(*source, Path(beside)) if is_family else source
-            line, is_refused = line_of(name, source, Path(into), fillers, not is_family and isinstance(source, Path))
+            line, is_refused = line_of(name, source, Path(into), fillers, has_peers and isinstance(source, Path))
         failed, count = failed + is_refused, count + 1
         print(line, flush=True)
     print(f"{count - failed} of {count} are prepared and filled by TetGen and Gmsh")

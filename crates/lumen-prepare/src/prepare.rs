@@ -1,4 +1,4 @@
-//! All of it in one call: the largest piece, uncross, clip, extend, cap, remesh, check.
+//! All of it in one call: the lumen of a wall, the largest piece, uncross, clip, extend, cap, remesh, check.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
