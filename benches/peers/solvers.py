@@ -1,12 +1,14 @@
 """What TetGen, Gmsh and fTetWild make of surfaces that `lumen prepare` wrote, and of the same prepared by pymeshfix + pymeshlab.
 
-    python solvers.py [FILE...]
+    python solvers.py [FILE...] [--fast]
+    python solvers.py --family [PART OF A NAME...] [--fast]
 
 Python is one with gmsh, meshio, numpy, pymeshfix, pymeshlab, pytetwild, pyvista and tetgen; LUMEN_PROGRAM names the program
-if it is not target/release/lumen. Without files: those of LUMEN_DATA/real, and the phantoms. A line for each file: the ends,
+if it is not target/release/lumen. Without files: those of LUMEN_DATA/real, and the phantoms; with --family those that
+`families.py` makes, without the peers. --fast leaves out fTetWild and the peers. A line for each file: the ends,
 triangles, mean quality, share of triangles with an angle under 30 degrees, and the cells that each mesher fills the surface
-with, without repair; "no" where it does not, or where the volume differs by more than 1 %. Nonzero exit status if TetGen or
-Gmsh refuses a surface that Lumen said is ready.
+with, without repair; "no" where it does not, or where the volume differs by more than 1 %. Nonzero exit status if Lumen, TetGen
+or Gmsh refuses a surface.
 """
 import json
 import multiprocessing
@@ -19,6 +21,8 @@ from pathlib import Path
 
 import numpy as np
 import pyvista as pv
+
+from families import family
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("LUMEN_PROGRAM", ROOT / "target" / "release" / "lumen")
@@ -135,44 +139,64 @@ def peers(source, folder, edge):
         return None
 
 
+def line_of(name, source, folder, fillers, has_peers):
+    """What is printed of a file, and whether a mesher refused what Lumen said is ready, or Lumen the file."""
+    begun = time.time()
+    command = [PROGRAM, "prepare", source, *OPTIONS, "-o", folder, "--format", "stl,msh"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT)
+    except subprocess.TimeoutExpired:
+        return f"{name:44} takes more than {LIMIT} s", True
+    seconds = time.time() - begun
+    if done.returncode:
+        return f"{name:44} {(done.stderr.strip().splitlines() or ['?'])[-1]}", True
+    patches = json.loads(next(folder.glob("*.json")).read_text())
+    stl, msh = next(folder.glob("*.stl")), next(folder.glob("*.msh"))
+    mesh = pv.read(stl).clean(tolerance=0.0, absolute=True)
+    mean, small = quality(mesh)
+    cells = [attempt(fill, msh if fill is gmsh else stl, mesh.volume) for fill in fillers]
+    line = f"{name:44} {len(patches['patches']) - 1:4} {mesh.n_cells:9,} {mean:7.3f} {100 * small:5.2f}% {seconds:4.1f} |"
+    line += "".join(f" {cell:8,}" if cell else "       no" for cell in cells)
+    line += "" if patches["is_ready"] else " (said: " + " ".join(finding["text"] for finding in patches["findings"]) + ")"
+    # A file in cm or m is not as large as what Lumen made of it.
+    if has_peers and pv.read(source).length > mesh.length / 5:
+        edge = np.sqrt(4 / np.sqrt(3) * mesh.area / mesh.n_cells)
+        other = peers(source, folder, edge)
+        line += " |"
+        if other is None:
+            line += " not prepared"
+        else:
+            volume = pv.read(other).volume
+            line += "".join(f" {cell:8,}" if cell else "       no" for cell in (attempt(f, other, volume) for f in (tetgen, gmsh)))
+    return line, None in cells[:2]
+
+
+def made(make, number, folder):
+    """A surface of the family as a file, of one format after another."""
+    path = folder / f"made{['.vtp', '.stl', '.ply'][number % 3]}"
+    make().save(path)
+    return path
+
+
 def main():
-    files = [Path(name) for name in sys.argv[1:]]
-    files = files or sorted(path for path in (DATA / "real").iterdir() if path.suffix in ENDINGS)
-    files = files if sys.argv[1:] else [*files, "sample:aorta", "sample:coronary"]
+    names = [name for name in sys.argv[1:] if not name.startswith("--")]
+    is_family, is_fast = "--family" in sys.argv, "--fast" in sys.argv
+    fillers, has_peers = [tetgen, gmsh, *([] if is_fast else [ftetwild])], not (is_family or is_fast)
     print(f"{'file':44} ends triangles quality <30deg   s | tetgen    gmsh ftetwild | tetgen    gmsh (pymeshfix + pymeshlab)")
-    failed = 0
-    for source in files:
-        with tempfile.TemporaryDirectory() as folder:
-            folder = Path(folder)
-            begun = time.time()
-            command = [PROGRAM, "prepare", source, *OPTIONS, "-o", folder, "--format", "stl,msh"]
-            done = subprocess.run(command, capture_output=True, text=True)
-            seconds = time.time() - begun
-            name = source if isinstance(source, str) else source.name
-            if done.returncode:
-                print(f"{name:44} {(done.stderr.strip().splitlines() or ['?'])[-1]}")
-                failed += 1
-                continue
-            patches = json.loads(next(folder.glob("*.json")).read_text())
-            stl, msh = next(folder.glob("*.stl")), next(folder.glob("*.msh"))
-            mesh = pv.read(stl).clean(tolerance=0.0, absolute=True)
-            mean, small = quality(mesh)
-            cells = [attempt(fill, path, mesh.volume) for fill, path in ((tetgen, stl), (gmsh, msh), (ftetwild, stl))]
-            failed += patches["is_ready"] and None in cells[:2]
-            line = f"{name:44} {len(patches['patches']) - 1:4} {mesh.n_cells:9,} {mean:7.3f} {100 * small:5.2f}% {seconds:4.1f} |"
-            line += "".join(f" {cell:8,}" if cell else "       no" for cell in cells)
-            # A file in cm or m is not as large as what Lumen made of it.
-            is_mm = not isinstance(source, str) and pv.read(source).length > mesh.length / 5
-            if is_mm:
-                edge = np.sqrt(4 / np.sqrt(3) * mesh.area / mesh.n_cells)
-                other = peers(source, folder, edge)
-                line += " |"
-                if other is None:
-                    line += " not prepared"
-                else:
-                    volume = pv.read(other).volume
-                    line += "".join(f" {cell:8,}" if cell else "       no" for cell in (attempt(f, other, volume) for f in (tetgen, gmsh)))
-            print(line, flush=True)
+    failed = count = 0
+    if is_family:
+        all_made = enumerate(family())
+        sources = [(name, (make, number)) for number, (name, make) in all_made if all(part in name for part in names)]
+    else:
+        files = [Path(name) for name in names] or sorted(path for path in (DATA / "real").iterdir() if path.suffix in ENDINGS)
+        sources = [(path.name, path) for path in files] + [(name, name) for name in ([] if names else ["sample:aorta", "sample:coronary"])]
+    for name, source in sources:
+        with tempfile.TemporaryDirectory() as into, tempfile.TemporaryDirectory() as beside:
+            source = made(*source, Path(beside)) if is_family else source
+            line, is_refused = line_of(name, source, Path(into), fillers, has_peers and isinstance(source, Path))
+        failed, count = failed + is_refused, count + 1
+        print(line, flush=True)
+    print(f"{count - failed} of {count} are prepared and filled by TetGen and Gmsh")
     return min(failed, 1)
 
 

@@ -1,6 +1,7 @@
 //! `lumen prepare`: a surface made ready for a flow or structure solver.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
@@ -13,6 +14,7 @@ use super::running::worked;
 use super::source::{self, UnitOption};
 use super::{interrupt, places};
 use crate::io::Imported;
+use crate::pipeline::carry::carry_over;
 use crate::pipeline::report::DISCLAIMER;
 use crate::prepare::cap::CapKind;
 use crate::prepare::cuts::{ClipAt, Cut};
@@ -146,13 +148,21 @@ impl Prepare {
             single.map(|format| format.extension()).chain(["json"]).map(|ending| format!("{stem}.{ending}")).collect();
         self.check(names.iter().map(String::as_str))?;
         interrupt::listen()?;
-        let Imported { mesh, .. } = source::read_with(&self.file, self.unit, &Default::default())?;
+        let Imported { mesh, arrays, .. } = source::read_with(&self.file, self.unit, &Default::default())?;
         let before = mesh.triangles.len();
+        let (surface, entered) = (Arc::new(mesh), arrays);
+        let mesh = Arc::clone(&surface);
         let found = worked("Preparing", |yielder| async move { prepare(&mesh, &plan, &yielder).await })?;
         let found = found.map_err(|error| anyhow!("the surface cannot be prepared: {error}"))?;
+        let arrays = if entered.is_empty() || !self.format.iter().any(|format| format.has_arrays()) {
+            Vec::new()
+        } else {
+            let to = found.surface.mesh.clone();
+            worked("Carrying arrays", |yielder| async move { carry_over(entered, &surface, &to, &yielder).await })?
+        };
         let mut files = vec![(format!("{stem}.json"), summary(&found)?)];
         for format in &self.format {
-            files.extend(format.written(&found.surface, &stem)?);
+            files.extend(format.written_with(&found.surface, &arrays, &stem)?);
         }
         self.check(files.iter().map(|(name, _)| name.as_str()))?;
         for (name, bytes) in &files {

@@ -25,6 +25,8 @@ use lumen_mesh::{Array, Blend, Nearest, SurfaceIndex, TriMesh, Vec3, blended, tr
 /// Closest points between two looks at the clock, and of one thread.
 const SLICE: usize = 16_384;
 const CHUNK: usize = 2_048;
+/// Two triangles face the same way where the cosine between their normals is larger.
+const ALIKE: f32 = 0.5;
 
 /// The surface that entered decimation.
 #[derive(Clone, Debug)]
@@ -69,6 +71,43 @@ pub async fn carry(
     }
     let of_triangles = if on_other > 0 { carrying.triangles() } else { Blend::default() };
     blended(&from.arrays, &carrying.vertices, &of_triangles)
+}
+
+/// Carries the arrays of a surface to another one that lies on it but for what was cut off, put on or filled. Of the first,
+/// triangles farther from the other than those there are wide, or that face another way, give nothing; where there is no
+/// surface of before, values are those of the closest point. Every vertex of `to` is of a triangle.
+pub async fn carry_over(arrays: Vec<Array>, mesh: &TriMesh, to: &TriMesh, yielder: &Yielder) -> Vec<Array> {
+    let index = SurfaceIndex::new(&to.positions, &to.triangles);
+    let normal = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).normalize_or_zero();
+    let mut kept = Vec::with_capacity(mesh.triangles.len());
+    for block in blocks(mesh.triangles.len(), SLICE) {
+        let found = nearest(block.clone(), |t| Some((&index, centroid(mesh.corners(t)))));
+        for (t, found) in block.clone().zip(found) {
+            let is_of_other = found.is_some_and(|found| {
+                let corners = to.corners(found.triangle as usize);
+                let width = triangle_area(corners).sqrt() as f32;
+                found.distance <= width && normal(corners).dot(normal(mesh.corners(t))) > ALIKE
+            });
+            kept.extend(is_of_other.then_some(t as u32));
+        }
+        yielder.rest(0.5 * block.end as f32 / mesh.triangles.len() as f32).await;
+    }
+    let own = Blend::of_rows(0..mesh.positions.len() as u32);
+    let arrays = blended(&arrays, &own, &Blend::of_rows(kept.iter().copied()));
+    let all = TriMesh {
+        triangles: kept.iter().map(|&t| mesh.triangles[t as usize]).collect(),
+        positions: mesh.positions.clone(),
+    };
+    if all.triangles.is_empty() {
+        return Vec::new();
+    }
+    let from = Entered {
+        arrays: arrays.into(),
+        index: Arc::new(SurfaceIndex::new(&all.positions, &all.triangles)),
+        mesh: all.into(),
+        vertex_of_node: vec![MADE; to.positions.len()].into(),
+    };
+    carry(&from, &to.triangles, to, &index, &yielder.part(0.5..1.0)).await
 }
 
 /// Arrays on their way to a level.
@@ -157,4 +196,62 @@ fn nearest<'a>(
 
 fn centroid([a, b, c]: [Vec3; 3]) -> Vec3 {
     ((a.as_dvec3() + b.as_dvec3() + c.as_dvec3()) / 3.0).as_vec3()
+}
+
+#[cfg(test)]
+mod tests {
+    use lumen_mesh::arrays::{Scalar, Values};
+    use lumen_mesh::shapes::tube;
+    use lumen_mesh::task::at_once;
+
+    use super::*;
+
+    /// Heights at the vertices, and a label for each stretch of 10 mm on the triangles.
+    fn with_arrays(mesh: &TriMesh) -> Vec<Array> {
+        let heights: Vec<f32> = mesh.positions.iter().map(|p| p.z).collect();
+        let stretches = (0..mesh.triangles.len()).map(|t| f64::from((centroid(mesh.corners(t)).z / 10.0).floor()));
+        vec![
+            Array::new("height", Association::Point, 1, Values::from_floats(&heights)),
+            Array::new("stretch", Association::Triangle, 1, Values::of(Scalar::I32, stretches)),
+        ]
+    }
+
+    #[test]
+    fn a_part_with_other_triangles_has_the_values_of_its_places_and_none_of_what_was_cut_off() {
+        let whole = tube(60, 200, 40.0, |_| 3.0);
+        // From 12 to 38 mm: the first stretch is cut off.
+        let mut part = tube(24, 37, 26.0, |_| 3.0);
+        part.positions.iter_mut().for_each(|p| p.z += 12.0);
+        let arrays = with_arrays(&whole);
+        let carried = at_once(carry_over(arrays, &whole, &part, &Yielder::never()));
+        let [heights, stretches] = &carried[..] else { panic!("{carried:?}") };
+        assert_eq!((heights.len(), stretches.len()), (part.positions.len(), part.triangles.len()));
+        for (v, p) in part.positions.iter().enumerate() {
+            assert!((heights.values.get(v) - f64::from(p.z)).abs() < 0.01, "{} at {p}", heights.values.get(v));
+        }
+        for t in 0..part.triangles.len() {
+            let zs = part.corners(t).map(|p| p.z);
+            let [low, high] = [zs.into_iter().fold(f32::MAX, f32::min), zs.into_iter().fold(0.0, f32::max)];
+            let stretch = stretches.values.get(t) as f32;
+            assert!(
+                stretch == (low / 10.0).floor() || stretch == (high / 10.0).floor(),
+                "{stretch} at {low} to {high}"
+            );
+        }
+        assert_eq!((0..stretches.len()).map(|t| stretches.values.get(t)).fold(9.0, f64::min), 1.0);
+    }
+
+    #[test]
+    fn what_was_put_on_has_the_values_where_it_begins() {
+        let whole = tube(48, 100, 20.0, |_| 2.0);
+        let longer = tube(48, 160, 32.0, |_| 2.0);
+        let carried = at_once(carry_over(with_arrays(&whole), &whole, &longer, &Yielder::never()));
+        for (v, p) in longer.positions.iter().enumerate() {
+            assert!((carried[0].values.get(v) - f64::from(p.z.min(20.0))).abs() < 0.01);
+        }
+        for t in 0..longer.triangles.len() {
+            let z = centroid(longer.corners(t)).z;
+            assert_eq!(carried[1].values.get(t), if z < 10.0 { 0.0 } else { 1.0 }, "at {z}");
+        }
+    }
 }

@@ -1,18 +1,15 @@
 //! Where each end of a surface is cut, by what is asked of all ends and of single ones, and what goes.
 
-use std::sync::Arc;
-
 use glam::DVec3;
-use lumen_mesh::mending::split::split;
+use lumen_mesh::TriMesh;
 use lumen_mesh::task::Yielder;
-use lumen_mesh::{SurfaceIndex, Topology, TriMesh};
-use lumen_vessel::{Place, Tree};
+use lumen_vessel::Place;
 use serde::{Deserialize, Serialize};
 
 use super::clip::{Clipped, clip};
-use super::ends::{EndPlane, EndPlanes, Length, check_surface, free_ends};
+use super::ends::{EndPlane, EndPlanes, Length, check_surface, free_ends, skeleton};
 use super::notes::{Note, PrepareError, Reason};
-use super::prepare::{Plan, largest_piece};
+use super::prepare::{Plan, vessel};
 
 /// A place is that of an end at most so many of its radii away.
 const NEAR: f64 = 8.0;
@@ -64,7 +61,7 @@ impl PlannedEnd {
 /// The ends of a surface, and what their planes cut off.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cuts {
-    /// What the tree's ends are: the largest piece of the surface.
+    /// The largest piece of the surface, or the lumen of a wall.
     pub mesh: TriMesh,
     /// The ends.
     pub ends: Vec<PlannedEnd>,
@@ -81,9 +78,11 @@ pub struct Cuts {
 pub async fn cuts(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<Cuts, PrepareError> {
     plan.check()?;
     check_surface(mesh)?;
-    let (mesh, _) = largest_piece(split(mesh).mesh);
+    let mut notes = Vec::new();
+    let mesh = vessel(mesh, plan, &mut notes, &yielder.part(0.0..0.1)).await?;
     yielder.rest(0.1).await;
-    let (mut ends, mut notes) = planned(&mesh, plan, &yielder.part(0.1..0.9)).await?;
+    let (mut ends, strays) = planned(&mesh, plan, &yielder.part(0.1..0.9)).await?;
+    notes.extend(strays);
     let planes: Vec<EndPlane> = ends.iter().filter_map(|end| end.plane.clone()).collect();
     let mut refused = Vec::new();
     let (_, from) = cut_at(mesh.clone(), &planes, &mut refused);
@@ -116,9 +115,7 @@ pub(crate) async fn planned(
     plan: &Plan,
     yielder: &Yielder,
 ) -> Result<(Vec<PlannedEnd>, Vec<Note>), PrepareError> {
-    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-    let index = Arc::new(SurfaceIndex::new(&mesh.positions, &mesh.triangles));
-    let tree = Tree::with_topology_in_slices(mesh, &topology, index, &yielder.part(0.0..0.9)).await?;
+    let tree = skeleton(mesh, &yielder.part(0.0..0.9)).await?;
     let planes = EndPlanes::new(mesh, &tree)?;
     yielder.rest(0.9).await;
     let free: Vec<_> = free_ends(&tree).collect();

@@ -65,6 +65,11 @@ messages! {
             /// How many.
             others: usize,
         } => (others, "One smaller piece is left out.", "{others} smaller pieces are left out."),
+        /// The surface is a wall with two sides, of which the inner one is taken.
+        "solver-note-lumen" Lumen {
+            /// Its thickness, in mm.
+            thickness_mm: f64 [1],
+        } => "The surface is a wall {thickness_mm:.1} mm thick: its inner side is taken.",
         /// An end is not cut.
         "solver-note-not-cut" NotCut {
             /// Its place, in mm.
@@ -121,6 +126,11 @@ messages! {
             /// Why not.
             why: TreeError,
         } => "no end can be found: {why}",
+        /// It is a wall, and no vessel.
+        "solver-error-wall" Wall {
+            /// Its thickness, in mm.
+            thickness_mm: f64 [1],
+        } => "it is a wall {thickness_mm:.1} mm thick, and its inner side cannot be told from its outer side",
         /// An end cannot be closed.
         "solver-error-cap" Cap {
             /// Its name.

@@ -1,4 +1,4 @@
-//! All of it in one call: the largest piece, uncross, clip, extend, cap, remesh, check.
+//! All of it in one call: the lumen of a wall, the largest piece, uncross, clip, extend, cap, remesh, check.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::cap::{CapKind, cap};
 use super::check::{Fate, check};
 use super::cuts::{ClipAt, Cut, cut_at, planned};
-use super::ends::{EndPlane, Length, OpenEnd, check_surface, names, open_ends, planes_of_uneven_openings};
+use super::ends::{EndPlane, Length, OpenEnd, check_surface, names, open_ends, planes_of_uneven_openings, unfold};
 use super::extend::{ExtendError, Extended, extend};
 use super::notes::{Note, PrepareError, Reason};
 use super::remesh::{Deviation, Quality, Remeshed, Sizing, remesh_in_slices};
@@ -14,6 +14,7 @@ use super::uncross::{Uncrossed, uncross_in_slices};
 use super::{Patch, PatchKind, Patched};
 use lumen_mesh::mending::fill::fill;
 use lumen_mesh::mending::split::split;
+use lumen_mesh::mending::wall::{Wall, WallFound, find_in_slices};
 use lumen_mesh::task::Yielder;
 use lumen_mesh::{FlatCap, Topology, TriMesh, Vec3, boundary_loops, compacted, components, flat_caps, without_caps};
 use lumen_vessel::width::widths;
@@ -58,6 +59,11 @@ impl Plan {
         self.clip.is_some() || self.cuts.iter().any(|cut| cut.at.is_some())
     }
 
+    /// Whether something is asked for that only a vessel has: ends.
+    fn is_of_vessels(&self) -> bool {
+        self.clips() || self.extend.is_some() || self.cap.is_some()
+    }
+
     /// Refuses lengths that make no sense.
     ///
     /// # Errors
@@ -77,7 +83,7 @@ impl Plan {
 /// A surface that was prepared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prepared {
-    /// The surface in patches, with their areas.
+    /// The surface in patches, with their areas. Every vertex is of a triangle.
     pub surface: Patched,
     /// What a volume mesher would say.
     pub fate: Fate,
@@ -98,11 +104,7 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     plan.check()?;
     check_surface(mesh)?;
     let mut notes = Vec::new();
-    // Edges of more than two triangles are no place to part surfaces at, and no mesher takes them.
-    let (mesh, others) = largest_piece(split(mesh).mesh);
-    if others > 0 {
-        notes.push(Note::LeftOut { others });
-    }
+    let mesh = vessel(mesh, plan, &mut notes, &yielder.part(0.0..0.05)).await?;
     yielder.rest(0.05).await;
     let (mut mesh, crossing) = if plan.uncross {
         let part = yielder.part(0.05..0.3);
@@ -118,7 +120,8 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     let mut surface = if plan.extend.is_some() || plan.cap.is_some() {
         // What is flat and closed is an end like those that are open.
         let (walls, had_caps) = opened(&mesh);
-        let (mesh, ends) = without_holes(&largest_piece(walls).0, &mut notes)?;
+        let (mut mesh, ends) = without_holes(&largest_piece(walls).0, &mut notes)?;
+        unfold(&mut mesh, &ends);
         if ends.is_empty() {
             notes.push(Note::NoEnds);
         }
@@ -155,8 +158,44 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
         measure(&mut surface);
     }
     yielder.rest(0.95).await;
+    surface.mesh = compacted(&surface.mesh.positions, surface.mesh.triangles);
     let fate = check(&surface);
     Ok(Prepared { surface, fate, notes, crossing, remeshed })
+}
+
+/// What of a surface is prepared by `plan`: its largest piece, of a wall the lumen.
+pub(crate) async fn vessel(
+    mesh: &TriMesh,
+    plan: &Plan,
+    notes: &mut Vec<Note>,
+    yielder: &Yielder,
+) -> Result<TriMesh, PrepareError> {
+    // Edges of more than two triangles are no place to part surfaces at, and no mesher takes them.
+    let mut mesh = split(mesh).mesh;
+    if plan.is_of_vessels() {
+        mesh = without_wall(mesh, notes, yielder).await?;
+    }
+    let (mesh, others) = largest_piece(mesh);
+    if others > 0 {
+        notes.push(Note::LeftOut { others });
+    }
+    Ok(mesh)
+}
+
+/// The lumen of a wall with two sides; any other surface as it is.
+async fn without_wall(mesh: TriMesh, notes: &mut Vec<Note>, yielder: &Yielder) -> Result<TriMesh, PrepareError> {
+    if !Topology::new(mesh.positions.len(), &mesh.triangles).is_consistent() {
+        return Ok(mesh);
+    }
+    let WallFound { wall, lumen } = find_in_slices(&mesh, None, true, yielder).await;
+    match (wall, lumen) {
+        (None, _) => Ok(mesh),
+        (Some(Wall { thickness_mm, .. }), None) => Err(PrepareError::Wall { thickness_mm }),
+        (Some(Wall { thickness_mm, .. }), Some(lumen)) => {
+            notes.push(Note::Lumen { thickness_mm });
+            Ok(lumen.mesh)
+        }
+    }
 }
 
 /// The surface cut at its ends, as many of them as can be.
@@ -178,7 +217,7 @@ async fn clipped(
 }
 
 /// The largest piece of a surface, and how many others there were.
-pub(crate) fn largest_piece(mesh: TriMesh) -> (TriMesh, usize) {
+fn largest_piece(mesh: TriMesh) -> (TriMesh, usize) {
     let pieces = components(mesh.positions.len(), &mesh.triangles);
     match pieces.largest().filter(|_| pieces.count() > 1) {
         Some(largest) => (mesh.filtered(|t| pieces.of_triangle[t] == largest), pieces.count() - 1),
@@ -343,3 +382,6 @@ fn measure(surface: &mut Patched) {
     let areas = surface.areas_mm2();
     surface.patches.iter_mut().zip(areas).for_each(|(patch, area)| patch.area_mm2 = area);
 }
+
+#[cfg(test)]
+mod tests;

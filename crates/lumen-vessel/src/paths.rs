@@ -233,8 +233,8 @@ impl Graph {
     /// Whether by links, in the slab across `along` that is as thick as a ball, there is one more than `widest` from its middle.
     fn reaches_beside(&self, ball: u32, along: Vec3, widest: f32) -> bool {
         let Ball { centre, radius } = self.balls[ball as usize];
-        let (mut seen, mut left) = (HashSet::from([ball]), vec![ball]);
-        while let Some(at) = left.pop() {
+        let (mut seen, mut pending) = (HashSet::from([ball]), vec![ball]);
+        while let Some(at) = pending.pop() {
             for &(other, ..) in self.links(at) {
                 let to = self.balls[other as usize].centre - centre;
                 let height = to.dot(along);
@@ -242,7 +242,7 @@ impl Graph {
                     if (to - along * height).length() > widest {
                         return true;
                     }
-                    left.push(other);
+                    pending.push(other);
                 }
             }
         }

@@ -134,6 +134,7 @@ solver-note-left-out = { $others ->
     [one] Ein kleineres Stück ist weggelassen.
    *[other] { $others } kleinere Stücke sind weggelassen.
 }
+solver-note-lumen = Die Oberfläche ist eine { $thickness_mm } mm dicke Wand: ihre Innenseite ist genommen.
 solver-note-not-cut = Das Ende bei ({ $at }) ist nicht geschnitten: { $why }.
 solver-note-no-end = Bei ({ $at }) endet kein Gefäß: dort wird nichts geschnitten.
 solver-note-no-ends = Kein Ende zum Verlängern oder Schließen gefunden: zuerst die Enden schneiden.
@@ -165,6 +166,7 @@ solver-why-unsound = die Oberfläche ist dort nicht in Ordnung
 solver-error-empty = die Oberfläche hat keine Dreiecke
 solver-error-unsound = Zahlen der Oberfläche sind nicht endlich oder außerhalb des Bereichs
 solver-error-tree = kein Ende zu finden: { $why }
+solver-error-wall = sie ist eine { $thickness_mm } mm dicke Wand, deren Innenseite von ihrer Außenseite nicht zu unterscheiden ist
 solver-error-cap = { $name } kann nicht geschlossen werden: { $why }
 solver-error-mend = Kanten haben mehr als zwei Dreiecke, oder Dreiecke zeigen in entgegengesetzte Richtungen: die Oberfläche zuerst reparieren
 solver-error-sizes = die gewünschten Längen ergeben keinen Sinn

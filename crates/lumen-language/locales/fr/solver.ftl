@@ -134,6 +134,7 @@ solver-note-left-out = { $others ->
     [one] Une pièce plus petite est laissée de côté.
    *[other] { $others } pièces plus petites sont laissées de côté.
 }
+solver-note-lumen = La surface est une paroi de { $thickness_mm } mm d'épaisseur : sa face intérieure est prise.
 solver-note-not-cut = L'extrémité en ({ $at }) n'est pas coupée : { $why }.
 solver-note-no-end = Aucun vaisseau ne finit près de ({ $at }) : rien n'y est coupé.
 solver-note-no-ends = Aucune extrémité à prolonger ou à fermer : coupez d'abord les extrémités.
@@ -165,6 +166,7 @@ solver-why-unsound = la surface n'y est pas en ordre
 solver-error-empty = la surface n'a aucun triangle
 solver-error-unsound = des nombres de la surface sont non finis ou hors limites
 solver-error-tree = aucune extrémité trouvée : { $why }
+solver-error-wall = c'est une paroi de { $thickness_mm } mm d'épaisseur, dont la face intérieure ne se distingue pas de l'extérieure
 solver-error-cap = { $name } ne peut pas être fermé : { $why }
 solver-error-mend = des arêtes ont plus de deux triangles, ou des triangles regardent à l'opposé : réparez d'abord la surface
 solver-error-sizes = les longueurs demandées n'ont pas de sens

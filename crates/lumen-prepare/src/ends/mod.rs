@@ -9,6 +9,8 @@
 //! It does not look at what a solver needs of the flow: a vessel that bends sharply at its end is cut where it is round.
 
 mod rim;
+mod skeleton;
+mod unfold;
 
 use glam::DVec3;
 use lumen_mesh::cut::{Outline, cut};
@@ -19,6 +21,8 @@ use thiserror::Error;
 
 pub use rim::{OpenEnd, RimError, SurfaceError, check_surface, names, open_ends, planes_of_uneven_openings};
 pub(crate) use rim::{edges, forwards};
+pub use skeleton::skeleton;
+pub use unfold::unfold;
 
 /// The least over the largest width of a section that counts as round.
 pub const ROUND: f64 = 0.8;

@@ -18,7 +18,8 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use lumen_mesh::{TriMesh, compacted};
+use lumen_mesh::arrays::{Association, Scalar, gathered};
+use lumen_mesh::{Array, TriMesh, compacted, used_vertices};
 
 use crate::ends::{SurfaceError, check_surface};
 use crate::{Patch, PatchKind, Patched};
@@ -78,18 +79,38 @@ impl SolverFormat {
         self == Self::SimVascular
     }
 
+    /// Whether its files have a place for arrays.
+    pub fn has_arrays(self) -> bool {
+        matches!(self, Self::Vtp | Self::Msh)
+    }
+
     /// The files of a surface, each with its name; folders in a name end with `/`. `stem` begins the names: it is used as
     /// it is.
     ///
     /// # Errors
     /// When the surface has no triangle, when a number in it is out of range or not finite, or when two patches share an id.
     pub fn written(self, surface: &Patched, stem: &str) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
+        self.written_with(surface, &[], stem)
+    }
+
+    /// As [`Self::written`], with arrays of the surface's vertices and triangles where the format has a place for them: VTP
+    /// and MSH do. One on triangles that is called as what the format has itself is left out.
+    ///
+    /// # Errors
+    /// As [`Self::written`], and when an array is not as long as the surface.
+    pub fn written_with(
+        self,
+        surface: &Patched,
+        arrays: &[Array],
+        stem: &str,
+    ) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
         let sheet = Sheet::of(surface)?;
+        let arrays = sheet.arrays(surface, arrays)?;
         let bytes = match self {
             Self::Stl => stl::stl(&sheet),
-            Self::Msh => msh::msh(&sheet),
+            Self::Msh => msh::msh(&sheet, &arrays),
             Self::Inp => inp::inp(&sheet),
-            Self::Vtp => vtp::vtp(&sheet),
+            Self::Vtp => vtp::vtp(&sheet, &arrays),
             Self::SimVascular => {
                 let folder = format!("{stem}-mesh-complete");
                 let files = vtp::simvascular(&sheet).into_iter();
@@ -142,6 +163,16 @@ pub enum WriteError {
         id: u32,
         /// The name of the patch.
         name: String,
+    },
+    /// An array has not a tuple for each vertex or triangle.
+    #[error("the array \"{name}\" has {tuples} tuples where {expected} are expected")]
+    Array {
+        /// Its name.
+        name: String,
+        /// How many it has.
+        tuples: usize,
+        /// How many vertices or triangles there are.
+        expected: usize,
     },
     /// The JSON text could not be made.
     #[error("the patches could not be written as JSON: {0}")]
@@ -198,6 +229,19 @@ impl<'a> Sheet<'a> {
         Ok(Self { mesh: compacted(&mesh.positions, mesh.triangles.clone()), parts })
     }
 
+    /// Arrays of the surface for the vertices and triangles that are written.
+    fn arrays(&self, surface: &Patched, arrays: &[Array]) -> Result<Vec<Array>, WriteError> {
+        let TriMesh { positions, triangles } = &surface.mesh;
+        for array in arrays {
+            let expected = if array.on == Association::Point { positions.len() } else { triangles.len() };
+            if array.len() != expected {
+                return Err(WriteError::Array { name: array.name.clone(), tuples: array.len(), expected });
+            }
+        }
+        let all: Vec<u32> = (0..triangles.len() as u32).collect();
+        Ok(gathered(arrays, &used_vertices(positions.len(), triangles), &all))
+    }
+
     /// The corners of a part's triangles.
     fn corners<'b>(&'b self, part: &'b Part) -> impl Iterator<Item = [Vec3; 3]> + 'b {
         part.triangles.iter().map(|&t| self.mesh.corners(t as usize))
@@ -237,6 +281,19 @@ macro_rules! put {
     ($text:expr, $($argument:tt)*) => { $crate::write::line($text, format_args!($($argument)*)) };
 }
 use put;
+
+/// Tuple `i` of an array, with zeros behind it up to `components` numbers.
+fn tuple(array: &Array, i: usize, components: usize) -> String {
+    let number = |at: usize| {
+        let value = if at < array.components { array.values.get(i * array.components + at) } else { 0.0 };
+        match array.values.scalar() {
+            Scalar::F32 => format!("{:?}", value as f32),
+            Scalar::F64 => format!("{value:?}"),
+            _ => format!("{value:.0}"),
+        }
+    };
+    (0..components).map(number).collect::<Vec<String>>().join(" ")
+}
 
 /// A point in nine digits a coordinate, `between` standing between them.
 fn point(p: Vec3, between: &str) -> String {

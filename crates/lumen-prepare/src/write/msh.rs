@@ -1,13 +1,19 @@
 //! Gmsh MSH 4.1 as text: a discrete surface for each patch, of the physical surface with the patch's id and name.
 //!
+//! Arrays are views, on nodes or on elements.
+//!
 //! A node belongs to the first patch that uses it: Gmsh has the rims where patches meet as curves, which nothing that
 //! follows needs.
 
-use lumen_mesh::used_vertices;
+use lumen_mesh::arrays::Association;
+use lumen_mesh::{Array, used_vertices};
 
-use super::{NOTICE, Sheet, point, put};
+use super::{NOTICE, Sheet, point, put, tuple};
 
-pub(super) fn msh(sheet: &Sheet) -> String {
+/// Numbers of a scalar, a vector and a tensor. What has others gets zeros behind them.
+const COMPONENTS: [usize; 3] = [1, 3, 9];
+
+pub(super) fn msh(sheet: &Sheet, arrays: &[Array]) -> String {
     let Sheet { mesh, parts } = sheet;
     let text = &mut String::new();
     text.push_str("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
@@ -43,5 +49,17 @@ pub(super) fn msh(sheet: &Sheet) -> String {
         }
     }
     text.push_str("$EndElements\n");
+    arrays.iter().for_each(|array| view(text, array));
     std::mem::take(text)
+}
+
+/// An array as a view; left out where a tuple has more numbers than a tensor.
+fn view(text: &mut String, array: &Array) {
+    let section = if array.on == Association::Point { "NodeData" } else { "ElementData" };
+    let Some(components) = COMPONENTS.into_iter().find(|&most| array.components <= most) else { return };
+    let name = array.name.replace('"', "'").replace(['\n', '\r'], " ");
+    // A name, a time, a step, and how many numbers and tuples there are.
+    put!(text, "${section}\n1\n\"{name}\"\n1\n0.0\n3\n0\n{components}\n{}", array.len());
+    (0..array.len()).for_each(|i| put!(text, "{} {}", i + 1, tuple(array, i, components)));
+    put!(text, "$End{section}");
 }

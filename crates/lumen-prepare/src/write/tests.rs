@@ -232,3 +232,45 @@ fn vertices_without_a_triangle_are_left_out() {
         assert_eq!(format.written(&surface, "x").unwrap(), format.written(&capped_tube(), "x").unwrap());
     }
 }
+
+#[test]
+fn arrays_stand_in_vtp_and_msh_where_readers_look_for_them() {
+    use lumen_io::{ImportOptions, read_in_slices};
+    use lumen_mesh::arrays::Values;
+    use lumen_mesh::task::{Yielder, at_once};
+
+    let surface = capped_tube();
+    let heights: Vec<f32> = surface.mesh.positions.iter().map(|p| p.z + 0.1).collect();
+    let speeds = (0..2 * surface.mesh.triangles.len()).map(|i| i as f64 / 3.0);
+    let arrays = [
+        Array::new("a <b>", Association::Point, 1, Values::from_floats(&heights)),
+        Array::new("speed", Association::Triangle, 2, Values::of(Scalar::F64, speeds)),
+        Array::new(
+            "ModelFaceID",
+            Association::Triangle,
+            1,
+            Values::of(Scalar::I32, vec![77.0; surface.mesh.triangles.len()]),
+        ),
+    ];
+    let written = |format: SolverFormat| format.written_with(&surface, &arrays, "a").unwrap().pop().unwrap().1;
+    let (options, never) = (ImportOptions::default(), Yielder::never());
+    let read = at_once(read_in_slices(written(SolverFormat::Vtp).into(), "a.vtp", &options, &never)).unwrap();
+    // The reader orders vertices as the file does, and the file as the surface does.
+    let of = |name: &str| read.arrays.iter().find(|array| array.name == name).expect(name);
+    assert_eq!((of("a <b>").values.clone(), of("a <b>").on), (arrays[0].values.clone(), Association::Point));
+    assert_eq!((&of("speed").values, of("speed").components), (&arrays[1].values, 2));
+    assert_eq!(of("ModelFaceID").info().labels, [1.0, 5.0, 6.0]);
+
+    let text = String::from_utf8(written(SolverFormat::Msh)).unwrap();
+    let nodes = section(&text, "NodeData");
+    let vertices = surface.mesh.positions.len();
+    assert_eq!(nodes[..8], ["1", "\"a <b>\"", "1", "0.0", "3", "0", "1", &vertices.to_string()]);
+    assert!(nodes[8..].iter().enumerate().all(|(v, row)| numbers::<f32>(row) == [v as f32 + 1.0, heights[v]]));
+    let elements = section(&text, "ElementData");
+    // A vector has three numbers there.
+    assert_eq!(elements[6..8], ["3", &surface.mesh.triangles.len().to_string()]);
+    assert_eq!(numbers::<f64>(elements[9]), [2.0, 2.0 / 3.0, 1.0, 0.0]);
+
+    let short = [Array::new("short", Association::Point, 1, Values::from_floats(&heights[1..]))];
+    assert!(matches!(SolverFormat::Vtp.written_with(&surface, &short, "a"), Err(WriteError::Array { .. })));
+}
