@@ -336,6 +336,13 @@ trial-wire-straight-end = gerades Ende
 trial-wire-static-friction = Haftreibung
 trial-wire-kinetic-friction = Gleitreibung
 
+## What a wire's tip does not reach
+
+trial-reach-none = Von keinem Draht ist zu erwarten, dass er in den Ast an der Gabelung nach { $along } mm der Route gelangt; sie biegt um { $turn }° aus einem { $width } mm weiten Lumen ab: { $needs }, und diese reicht { $reach } mm zur Seite und ist um { $bend }° gebogen.
+trial-reach-another = Von diesem Draht ist nicht zu erwarten, dass er in den Ast an der Gabelung nach { $along } mm der Route gelangt; sie biegt um { $turn }° aus einem { $width } mm weiten Lumen ab: { $needs }, und seine reicht { $reach } mm zur Seite und ist um { $bend }° gebogen. Von dem vorgeschlagenen ist es zu erwarten.
+trial-reach-long = nötig ist eine Spitze, die { $reach } mm zur Seite reicht
+trial-reach-bent = nötig ist eine Spitze, die { $reach } mm zur Seite reicht und um mindestens { $bend }° gebogen ist
+
 ## Why a log cannot be replayed: clauses as above
 
 trial-log-none = dies ist kein Protokoll eines Lumen-Versuchs: Die erste Zeile ist nicht „# lumen trial log“

@@ -336,6 +336,13 @@ trial-wire-straight-end = extrémité droite
 trial-wire-static-friction = frottement statique
 trial-wire-kinetic-friction = frottement cinétique
 
+## What a wire's tip does not reach
+
+trial-reach-none = Aucun guide ne devrait entrer dans la branche à la bifurcation à { $along } mm sur le trajet, qui tourne de { $turn }° hors d'une lumière large de { $width } mm : { $needs }, et celle-ci se porte à { $reach } mm de côté, pliée de { $bend }°.
+trial-reach-another = Ce guide ne devrait pas entrer dans la branche à la bifurcation à { $along } mm sur le trajet, qui tourne de { $turn }° hors d'une lumière large de { $width } mm : { $needs }, et la sienne se porte à { $reach } mm de côté, pliée de { $bend }°. Celui qui est proposé devrait y entrer.
+trial-reach-long = il faut une pointe qui se porte à { $reach } mm de côté
+trial-reach-bent = il faut une pointe qui se porte à { $reach } mm de côté et soit pliée d'au moins { $bend }°
+
 ## Why a log cannot be replayed: clauses as above
 
 trial-log-none = ce n'est pas le journal d'un essai de Lumen : sa première ligne n'est pas « # lumen trial log »

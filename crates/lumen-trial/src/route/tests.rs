@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::*;
-use lumen_mesh::shapes::{fork, joined, tube};
+use lumen_mesh::shapes::{fork, in_capsule, isosurface, joined, tube};
 use lumen_vessel::{Branch, End, Tree};
 
 fn near(found: f64, expected: f64, part: f64) {
@@ -93,13 +93,14 @@ fn a_fork_has_three_branches_and_each_route_is_as_long_as_its_axes() {
     let targets = tree.targets(entry.at.into(), 0.0);
     assert_eq!((tree.entries().len(), targets.len()), (3, 2));
     assert!(Vec3::from(entry.at).distance(bottom.as_vec3()) < 6.0 && entry.direction[2] > 0.99, "{entry:?}");
-    assert!(targets[0].at.distance(right.as_vec3()) < 6.0, "the thin branch is the best target");
-    let route = tree.route(entry.at.into(), targets[0].at).unwrap();
-    near(targets[0].length_mm, route.length_mm, 0.05);
+    let thin = targets.iter().find(|target| target.at.distance(right.as_vec3()) < 6.0).expect("an end");
+    let route = tree.route(entry.at.into(), thin.at).unwrap();
+    near(thin.length_mm, route.length_mm, 0.05);
+    near(targets[0].length_mm, targets[1].length_mm, 0.05);
     // Where there is no room in the thin branch, it goes as far as its mouth, and the wide one is the best target.
-    let roomy = tree.targets(entry.at.into(), 2.5 * targets[0].radius_mm);
+    let roomy = tree.targets(entry.at.into(), 2.5 * thin.radius_mm);
     assert!(roomy[0].at.distance(left.as_vec3()) < 6.0, "{roomy:?}");
-    assert!(roomy.len() == 2 && roomy[1].radius_mm > 1.25 * targets[0].radius_mm, "{roomy:?}");
+    assert!(roomy.len() == 2 && roomy[1].radius_mm > 1.25 * thin.radius_mm, "{roomy:?}");
 }
 
 #[test]
@@ -140,4 +141,102 @@ fn a_pinched_vessel_ends_where_it_is_pinched_and_a_narrow_one_goes_on() {
     assert!((route.points[route.smallest_at].at.z - 20.0).abs() < 0.3);
     let shut = Tree::new(&waisted(1e-4)).unwrap().route(from, to).unwrap_err();
     assert!(matches!(shut, RouteError::NoWay { at, .. } if (at.0[2] - 20.0).abs() < 1.5), "{shut}");
+}
+
+/// A trunk of 5 mm radius along z, and a branch that leaves it half-way by an angle; all ends are round.
+fn side_branch(degrees: f64, radius: f64) -> (lumen_mesh::TriMesh, [DVec3; 3]) {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let [bottom, joint, top] = [0.0, 50.0, 100.0].map(|z| DVec3::Z * z);
+    let end = joint + DVec3::new(sin, 0.0, cos) * 45.0;
+    let inside = |p: DVec3| in_capsule(p, bottom, top, 5.0).max(in_capsule(p, joint, end, radius));
+    let (low, high) = (DVec3::new(-6.0, -6.0, -6.0), DVec3::new(50.0, 6.0, 106.0));
+    (isosurface(low, high, 0.5, inside), [bottom, top, end])
+}
+
+#[test]
+fn a_fork_has_the_angle_and_the_radii_that_it_was_made_with() {
+    for (degrees, radius) in [(30.0, 3.0), (45.0, 2.0), (60.0, 3.0), (75.0, 2.0), (90.0, 3.0)] {
+        let (mesh, [bottom, top, end]) = side_branch(degrees, radius);
+        let tree = Tree::new(&mesh).unwrap();
+        let forks = |from: DVec3, to: DVec3| tree.route(from.as_vec3(), to.as_vec3()).unwrap().forks(&tree);
+        let into = forks(bottom, end);
+        let [fork] = into[..] else { panic!("{degrees} degrees: {into:?}") };
+        assert!((fork.turn_degrees - degrees).abs() < 5.0, "{degrees} degrees: {fork:?}");
+        near(fork.parent_radius_mm, 5.0, 0.1);
+        near(fork.branch_radius_mm, radius, 0.1);
+        // Their axes part at 50 mm, and that of the branch leaves the lumen of the trunk so much farther on.
+        assert!((fork.arc_mm - 50.0).abs() < 5.0 / degrees.to_radians().sin(), "{fork:?}");
+        assert_eq!(forks(bottom, top), [], "past the branch it goes straight on");
+        assert_eq!(forks(end, bottom), [], "out of the branch the wall of the trunk leads on");
+    }
+}
+
+#[test]
+fn where_a_vessel_parts_in_two_alike_each_way_is_a_fork() {
+    let (mesh, [bottom, joint, left, right]) = fork();
+    let tree = Tree::new(&mesh).unwrap();
+    for (end, radius) in [(left, 3.0), (right, 2.0)] {
+        let forks = tree.route(bottom.as_vec3(), end.as_vec3()).unwrap().forks(&tree);
+        let [fork] = forks[..] else { panic!("{forks:?}") };
+        assert!((fork.turn_degrees - 40.0).abs() < 5.0 && (fork.arc_mm - joint.z).abs() < 4.0, "{fork:?}");
+        near(fork.parent_radius_mm, 4.0, 0.15);
+        near(fork.branch_radius_mm, radius, 0.1);
+    }
+}
+
+/// An aorta of 18 mm that parts into two arteries of 10 mm at 25 degrees each, the one longer, with one of 6 mm at its side,
+/// all `scale` times as large: the ends of the aorta, of the long and the short artery, and of that at the side.
+fn aorta(scale: f64) -> (lumen_mesh::TriMesh, [DVec3; 4]) {
+    let (sin, cos) = 25.0_f64.to_radians().sin_cos();
+    let (top, fork, renal) = (DVec3::Z * 130.0, DVec3::ZERO, DVec3::Z * 50.0);
+    let [long, short] = [(120.0, 1.0), (80.0, -1.0)].map(|(length, side)| DVec3::new(side * sin, 0.0, -cos) * length);
+    let side = renal + DVec3::new(0.0, 48.0, 16.0);
+    let vessels = [(top, fork, 9.0), (fork, long, 5.0), (fork, short, 5.0), (renal, side, 3.0)];
+    let inside = |p: DVec3| {
+        let depths = vessels.map(|(from, to, radius)| in_capsule(p, scale * from, scale * to, scale * radius));
+        depths.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    };
+    let (low, high) = (DVec3::new(-42.0, -11.0, -116.0), DVec3::new(58.0, 53.0, 141.0));
+    (isosurface(scale * low, scale * high, scale, inside), [top, long, short, side].map(|end| scale * end))
+}
+
+/// The end that each place lies at, of those that are given.
+fn ends_of(places: impl Iterator<Item = [f32; 3]>, ends: &[DVec3]) -> Vec<usize> {
+    let distance = |place: [f32; 3], i: usize| Vec3::from(place).as_dvec3().distance(ends[i]);
+    let nearest = |place| (0..ends.len()).min_by(|&a, &b| distance(place, a).total_cmp(&distance(place, b))).unwrap();
+    places.map(nearest).collect()
+}
+
+#[test]
+fn an_aorta_is_entered_from_the_groin_and_other_vessels_where_they_are_wide() {
+    const TOP: usize = 0;
+    const LONG: usize = 1;
+    const SHORT: usize = 2;
+    const SIDE: usize = 3;
+    let entered = |scale| {
+        let (mesh, ends) = aorta(scale);
+        let tree = Tree::new(&mesh).unwrap();
+        ends_of(tree.entries().into_iter().map(|(_, entry)| entry.at), &ends)
+    };
+    let found = entered(1.0);
+    assert!(matches!(found[..], [LONG, SHORT, TOP, SIDE] | [SHORT, LONG, TOP, SIDE]), "{found:?}");
+    // A quarter as large it is as wide as a coronary artery.
+    assert_eq!(entered(0.25)[0], TOP);
+    assert_eq!(entered(0.25)[3], SIDE);
+}
+
+#[test]
+fn the_farthest_target_is_the_best_and_one_behind_a_turn_back_the_last() {
+    let (mesh, ends) = aorta(1.0);
+    let tree = Tree::new(&mesh).unwrap();
+    let from = |end: DVec3| {
+        let targets = tree.targets((0.9 * end).as_vec3(), 0.0);
+        ends_of(targets.into_iter().map(|target| target.at.to_array()), &ends)
+    };
+    let [top, long, short, _] = ends;
+    // From below, the other artery is the farthest and behind a turn of 130 degrees, that at the side behind one of 72.
+    assert_eq!(from(short)[0], 0, "{:?}", from(short));
+    assert_eq!(*from(short).last().unwrap(), 1, "{:?}", from(short));
+    assert_eq!(from(top)[..2], [1, 2], "the longer artery first");
+    assert_eq!((from(long).len(), from(long)[0]), (3, 0));
 }
