@@ -25,7 +25,7 @@ use lumen_vessel::{Tree, TreeError};
 const VARIED: (f64, f64, f64) = (0.5, 2.0 * std::f64::consts::PI / 180.0, 0.2);
 
 /// So many wires may follow one that is proposed and fails.
-const NEXT_WIRES: usize = 2;
+const NEXT_WIRES: usize = 3;
 
 messages! {
     /// Why a trial cannot begin.

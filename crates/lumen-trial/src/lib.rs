@@ -79,7 +79,6 @@ pub const MESSAGES: &[&[lumen_message::Signature]] = &[
     missed::Taken::MESSAGES,
     placement::PlacementError::MESSAGES,
     reach::ReachFinding::MESSAGES,
-    reach::TipNeeded::MESSAGES,
     route::AtText::MESSAGES,
     route::PlaceLabel::MESSAGES,
     route::RouteError::MESSAGES,

@@ -33,16 +33,17 @@ pub(super) fn proposed_entry(tree: &Tree, entries: &[(PlaceName, Entry)], wire: 
     (0..lengths.len()).find(is_far).map(|i| entries[i].1)
 }
 
-/// The wires for which there is room along a route, those first that suit it where it goes straight on: their tips reach
-/// aside by what is usual in a lumen as wide as that of `first`, then by more or by less.
+/// The wires for which there is room along a route, in the order in which they go in where their tips get in alike: of the
+/// diameter of `first`, the shorter tip before the longer, and that of 60 degrees before the catheter's curve of 90, which
+/// slides past forks that turn by less.
 pub(super) fn suiting(route: &Route, first: &Wire) -> Vec<Wire> {
     let is_thick = first.diameter_mm > Wire::named(Wire::USUAL).diameter_mm;
-    let names = if is_thick {
-        [Wire::LONG_BEND, Wire::CURVE, Wire::USUAL]
+    let names: &[&str] = if is_thick {
+        &[Wire::LONG_BEND, Wire::LONG_TIP, Wire::CURVE, Wire::USUAL]
     } else {
-        [Wire::USUAL, Wire::LONG_BEND, "workhorse-j"]
+        &[Wire::USUAL, Wire::LONG_BEND, "workhorse-j"]
     };
-    let wires = names.into_iter().map(Wire::named);
+    let wires = names.iter().map(|name| Wire::named(name));
     wires.filter(|wire| route.clearance(ROOM * wire.diameter_mm).is_ok()).collect()
 }
 
@@ -96,7 +97,7 @@ mod tests {
             let route = tree.route(Vec3::Z * 3.0, Vec3::Z * 37.0).unwrap();
             suiting(&route, &Wire::named(first)).into_iter().map(|wire| wire.name).collect::<Vec<_>>()
         };
-        assert_eq!(of(2.0, Wire::LONG_BEND), [Wire::LONG_BEND, Wire::CURVE, Wire::USUAL]);
+        assert_eq!(of(2.0, Wire::LONG_BEND), [Wire::LONG_BEND, Wire::LONG_TIP, Wire::CURVE, Wire::USUAL]);
         assert_eq!(of(2.0, Wire::USUAL), [Wire::USUAL, Wire::LONG_BEND, "workhorse-j"]);
         // 1.2 mm across: twice 0.356 mm, and not 0.889.
         assert_eq!(of(0.6, Wire::USUAL), [Wire::USUAL, "workhorse-j"]);

@@ -8,13 +8,11 @@
 //!
 //! Where `a` is more than a right angle the end points back and the bow leads, which comes aside by `r`.
 //!
-//! The shaft lies at the wall, often at the one across from the branch. At a fork that turns by up to 60 degrees the tip
-//! gets in if it comes aside by 1.2 radii of the lumen that is left; at one that turns by 70 to 90 degrees if it comes
-//! aside by 2 radii and is bent by no less than the fork turns. Both were found by trials in forks that were made for it.
-//! The border is taken between, at 65 degrees: the turn of a fork is known to five.
+//! The shaft lies at the wall, often at the one across from the branch: a tip gets in if it comes aside by 1.2 radii of the
+//! lumen that is left. That was found on forks that were made for it: docs/benchmarks/trial.md.
 //!
-//! Limits: of turns by more than a right angle nothing is said, as from one iliac artery into the other. Friction, and
-//! what lies before the fork, do not come in.
+//! Limits: of turns by more than a right angle nothing is said, as from one iliac artery into the other. Friction, what lies
+//! before the fork, and how a mouth widens do not come in: a wire that is not expected to get in may.
 
 use super::route::Fork;
 use super::wire::Wire;
@@ -22,82 +20,54 @@ use lumen_message::messages;
 
 /// In degrees: a tip that is bent by more points back, and of forks that turn by more nothing is said.
 const ASIDE: f64 = 90.0;
-/// Up to so many degrees a fork takes a reach of so many radii of the lumen that is left.
-const GENTLE: (f64, f64) = (65.0, 1.2);
-/// Beyond, it takes so many radii, and a bend of no less than it turns.
-const SHARP: f64 = 2.0;
-
-/// What a tip reaches, or what a fork takes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reach {
-    /// How far it comes aside of the shaft, in mm.
-    pub aside_mm: f64,
-    /// The angle between shaft and tip there, in degrees.
-    pub bend_degrees: f64,
-}
+/// A fork takes a reach of so many radii of the lumen that is left.
+const RADII: f64 = 1.2;
+/// The radius of a lumen before a fork is known to a tenth: a tip that lacks no more gets in.
+const KNOWN_TO: f64 = 1.1;
 
 impl Wire {
-    /// What its tip reaches where nothing bends it.
-    pub fn reach(&self) -> Reach {
+    /// How far its tip comes aside of its shaft where nothing bends it, in mm.
+    pub fn reach_mm(&self) -> f64 {
         let bend = self.bend_degrees.to_radians();
         if bend <= 0.0 {
-            return Reach::default();
+            return 0.0;
         }
         let radius = (self.bend_mm - self.straight_end_mm).max(0.0) / bend;
         if self.bend_degrees > ASIDE {
-            return Reach { aside_mm: radius, bend_degrees: ASIDE };
+            return radius;
         }
-        let aside_mm = radius * (1.0 - libm::cos(bend)) + self.straight_end_mm * libm::sin(bend);
-        Reach { aside_mm, bend_degrees: self.bend_degrees }
+        radius * (1.0 - libm::cos(bend)) + self.straight_end_mm * libm::sin(bend)
     }
 }
 
 impl Fork {
-    /// What a tip must reach to get in; nothing where that is not known.
-    pub fn takes(&self) -> Reach {
-        match self.turn_degrees {
-            turn if turn <= GENTLE.0 => Reach { aside_mm: GENTLE.1 * self.parent_radius_mm, bend_degrees: 0.0 },
-            turn if turn <= ASIDE => Reach { aside_mm: SHARP * self.parent_radius_mm, bend_degrees: turn },
-            _ => Reach::default(),
-        }
-    }
-
-    /// How many times as much it takes as a tip reaches: the tip gets in where that is no more than 1.
-    fn excess(&self, tip: Reach) -> f64 {
-        let takes = self.takes();
-        let times = |takes: f64, has: f64| if takes > 0.0 { takes / has.max(f64::MIN_POSITIVE) } else { 0.0 };
-        times(takes.aside_mm, tip.aside_mm).max(times(takes.bend_degrees, tip.bend_degrees))
+    /// How far aside a tip must come to get in, in mm; nothing where that is not known.
+    pub fn takes_mm(&self) -> f64 {
+        if self.turn_degrees <= ASIDE { RADII * self.parent_radius_mm } else { 0.0 }
     }
 }
 
-/// The fork that a wire's tip misses by most, and how many times as much as it reaches that takes.
-fn missed(forks: &[Fork], wire: &Wire) -> Option<(f64, Fork)> {
-    let tip = wire.reach();
-    let missed = forks.iter().map(|fork| (fork.excess(tip), *fork)).filter(|(excess, _)| *excess > 1.0);
-    missed.reduce(|most, next| if next.0 > most.0 { next } else { most })
+/// The fork that takes more than a wire's tip reaches: of several the one that takes most.
+fn missed(forks: &[Fork], wire: &Wire) -> Option<Fork> {
+    let most = forks.iter().copied().reduce(|most, next| if next.takes_mm() > most.takes_mm() { next } else { most });
+    most.filter(|fork| fork.takes_mm() > KNOWN_TO * wire.reach_mm())
 }
 
-/// Puts the wires whose tips get into all forks first, then those that miss one by less. Of equal ones the order stays.
+/// Puts the wires whose tips get into all forks first, then those that reach farther. Of equal ones the order stays.
 pub(super) fn rank(wires: &mut [Wire], forks: &[Fork]) {
-    let excess = |wire: &Wire| missed(forks, wire).map_or(1.0, |(excess, _)| excess);
-    wires.sort_by(|a, b| excess(a).total_cmp(&excess(b)));
+    let lacks = |wire: &Wire| missed(forks, wire).map_or(0.0, |fork| fork.takes_mm() - wire.reach_mm());
+    wires.sort_by(|a, b| lacks(a).total_cmp(&lacks(b)));
 }
 
 /// What is said where the tip of `wire` does not get into a fork; `others` are the wires that could go in instead.
 pub(super) fn finding(forks: &[Fork], wire: &Wire, others: &[Wire]) -> Option<ReachFinding> {
-    let (_, fork) = missed(forks, wire)?;
-    let (takes, tip) = (fork.takes(), wire.reach());
-    let reach = takes.aside_mm;
-    let needs = match takes.bend_degrees {
-        bend if bend > 0.0 => TipNeeded::Bent { reach, bend },
-        _ => TipNeeded::Long { reach },
-    };
+    let fork = missed(forks, wire)?;
     let (along, turn, width) = (fork.arc_mm, fork.turn_degrees, 2.0 * fork.parent_radius_mm);
-    let (reach, bend) = (tip.aside_mm, tip.bend_degrees);
+    let (takes, reach) = (fork.takes_mm(), wire.reach_mm());
     Some(if others.iter().any(|other| missed(forks, other).is_none()) {
-        ReachFinding::Another { along, turn, width, needs, reach, bend }
+        ReachFinding::Another { along, turn, width, takes, reach }
     } else {
-        ReachFinding::None { along, turn, width, needs, reach, bend }
+        ReachFinding::None { along, turn, width, takes, reach }
     })
 }
 
@@ -113,14 +83,13 @@ messages! {
             turn: f64 [0],
             /// Diameter of the lumen that it leaves, in mm.
             width: f64 [1],
-            /// The tip that it takes.
-            needs: TipNeeded,
-            /// How far this one reaches, in mm.
+            /// How far aside a tip must reach, in mm.
+            takes: f64 [1],
+            /// How far this one does, in mm.
             reach: f64 [1],
-            /// By how many degrees it is bent there.
-            bend: f64 [0],
         } => "No wire is expected to get into the branch at the fork {along:.0} mm along the route, which turns by {turn:.0}° \
-              out of a lumen {width:.1} mm wide: {needs}, and that of this one reaches {reach:.1} mm, bent by {bend:.0}°.",
+              out of a lumen {width:.1} mm wide: that takes a tip that reaches {takes:.1} mm aside, and this one reaches \
+              {reach:.1} mm.",
         /// That of another wire does.
         "trial-reach-another" Another {
             /// Arc length of the fork along the route, in mm.
@@ -129,34 +98,13 @@ messages! {
             turn: f64 [0],
             /// Diameter of the lumen that it leaves, in mm.
             width: f64 [1],
-            /// The tip that it takes.
-            needs: TipNeeded,
-            /// How far this one reaches, in mm.
+            /// How far aside a tip must reach, in mm.
+            takes: f64 [1],
+            /// How far this one does, in mm.
             reach: f64 [1],
-            /// By how many degrees it is bent there.
-            bend: f64 [0],
         } => "This wire is not expected to get into the branch at the fork {along:.0} mm along the route, which turns by \
-              {turn:.0}° out of a lumen {width:.1} mm wide: {needs}, and its own reaches {reach:.1} mm, bent by {bend:.0}°. The \
-              one that is proposed is.",
-    }
-}
-
-messages! {
-    /// The tip that a fork takes, as a clause.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub enum TipNeeded {
-        /// Long enough.
-        "trial-reach-long" Long {
-            /// How far it reaches aside, in mm.
-            reach: f64 [1],
-        } => "it takes a tip that reaches {reach:.1} mm aside",
-        /// And bent by enough: that is the curve of a catheter.
-        "trial-reach-bent" Bent {
-            /// How far it reaches aside, in mm.
-            reach: f64 [1],
-            /// By how many degrees it is bent.
-            bend: f64 [0],
-        } => "it takes a tip that reaches {reach:.1} mm aside and is bent by {bend:.0}° or more",
+              {turn:.0}° out of a lumen {width:.1} mm wide: that takes a tip that reaches {takes:.1} mm aside, and this one \
+              reaches {reach:.1} mm. The wire that is proposed reaches in.",
     }
 }
 
@@ -176,54 +124,47 @@ mod tests {
     fn a_tip_reaches_as_far_aside_as_its_arc_and_its_straight_end_do() {
         // A quarter of a circle of radius 10 and an end of 5 mm square to the shaft.
         let quarter = 10.0 * std::f64::consts::FRAC_PI_2;
-        let square = shaped(quarter + 5.0, 90.0, 5.0).reach();
-        near(square.aside_mm, 15.0);
-        near(square.bend_degrees, 90.0);
+        near(shaped(quarter + 5.0, 90.0, 5.0).reach_mm(), 15.0);
         // Nearly no arc: the straight end is the side of a triangle.
-        near(shaped(8.0 + 1e-9, 30.0, 8.0).reach().aside_mm, 4.0);
+        near(shaped(8.0 + 1e-9, 30.0, 8.0).reach_mm(), 4.0);
         // Of a half circle the bow leads: one radius. A straight wire reaches nowhere.
-        near(shaped(2.0 * quarter, 180.0, 0.0).reach().aside_mm, 10.0);
-        assert_eq!(shaped(12.0, 0.0, 8.0).reach(), Reach::default());
+        near(shaped(2.0 * quarter, 180.0, 0.0).reach_mm(), 10.0);
+        near(shaped(12.0, 0.0, 8.0).reach_mm(), 0.0);
     }
 
-    /// The lumen that is left has a radius of 5 mm.
-    fn fork(turn_degrees: f64) -> Fork {
-        Fork { arc_mm: 40.0, parent_radius_mm: 5.0, branch_radius_mm: 3.0, turn_degrees }
+    fn fork(turn_degrees: f64, parent_radius_mm: f64) -> Fork {
+        Fork { arc_mm: 40.0, parent_radius_mm, branch_radius_mm: 3.0, turn_degrees }
     }
 
     #[test]
     fn wires_that_get_into_every_fork_come_first_and_the_others_by_what_they_lack() {
         // Ends square to the shaft with nearly no arc: each reaches as far as it is long.
-        let wire =
-            |name: &str, length: f64, degrees: f64| Wire { name: name.to_owned(), ..shaped(length, degrees, length) };
+        let wire = |length: f64| Wire { name: format!("{length}"), ..shaped(length, 90.0, length) };
         let order = |forks: &[Fork]| {
-            let mut wires = [wire("short", 5.0, 90.0), wire("gentle", 13.0, 60.0), wire("curve", 10.0, 90.0)];
+            let mut wires = [wire(5.0), wire(8.0), wire(20.0), wire(10.0)];
             rank(&mut wires, forks);
             wires.map(|wire| wire.name)
         };
-        assert_eq!(order(&[]), ["short", "gentle", "curve"], "without a fork the order stays");
-        // 1.2 radii are 6 mm.
-        assert_eq!(order(&[fork(45.0)]), ["gentle", "curve", "short"]);
-        // 2 radii are 10 mm, and a bend of 60 degrees is too little for a turn of 85.
-        assert_eq!(order(&[fork(45.0), fork(85.0)]), ["curve", "gentle", "short"]);
-        assert_eq!(order(&[fork(140.0)]), ["short", "gentle", "curve"], "nothing is known of it");
+        assert_eq!(order(&[]), ["5", "8", "20", "10"], "without a fork the order stays");
+        // 1.2 radii are 6 mm, of which 5 is too little.
+        assert_eq!(order(&[fork(45.0, 5.0)]), ["8", "20", "10", "5"]);
+        assert_eq!(order(&[fork(30.0, 3.0), fork(80.0, 12.5)]), ["20", "10", "8", "5"]);
+        assert_eq!(order(&[fork(80.0, 100.0)]), ["20", "10", "8", "5"]);
+        assert_eq!(order(&[fork(140.0, 12.5)]), ["5", "8", "20", "10"], "nothing is known of it");
     }
 
     #[test]
     fn what_no_tip_reaches_is_said_with_its_numbers() {
-        let short = shaped(5.0, 60.0, 5.0);
-        let square = shaped(10.5, 90.0, 10.5);
-        assert_eq!(finding(&[fork(45.0), fork(75.0)], &square, &[]), None);
-        let said = finding(&[fork(45.0), fork(75.0)], &short, std::slice::from_ref(&short)).unwrap().to_string();
+        let [short, long] = [5.0, 9.5].map(|length| shaped(length, 90.0, length));
+        let forks = [fork(45.0, 5.0), fork(75.0, 8.0)];
+        assert_eq!(finding(&forks, &long, &[]), None);
+        let said = finding(&forks, &short, std::slice::from_ref(&short)).unwrap().to_string();
         assert_eq!(
             said,
-            "No wire is expected to get into the branch at the fork 40 mm along the route, which turns by 75° out of a lumen 10.0 mm \
-             wide: it takes a tip that reaches 10.0 mm aside and is bent by 75° or more, and that of this one reaches 4.3 mm, bent by 60°."
+            "No wire is expected to get into the branch at the fork 40 mm along the route, which turns by 75° out of a lumen \
+             16.0 mm wide: that takes a tip that reaches 9.6 mm aside, and this one reaches 5.0 mm."
         );
-        let said = finding(&[fork(45.0)], &short, &[square]).unwrap().to_string();
-        assert!(
-            said.starts_with("This wire is not expected") && said.contains("a tip that reaches 6.0 mm aside, and"),
-            "{said}"
-        );
+        let said = finding(&forks, &short, &[long]).unwrap().to_string();
+        assert!(said.starts_with("This wire is not") && said.contains("reaches 9.6 mm aside"), "{said}");
     }
 }

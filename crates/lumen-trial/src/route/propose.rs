@@ -175,28 +175,24 @@ fn usual_radius_of(branch: &Branch) -> f64 {
 
 /// How a wire that enters at an end comes into an aorta; `None` where its tree has none.
 fn access(tree: &Tree, tip: &Tip<'_>) -> Option<Access> {
-    let branches = tree.branches();
-    let is_aorta = |branch: &Branch| 2.0 * usual_radius_of(branch) >= AORTA && branch.length_mm() >= AORTA;
-    if !branches.iter().any(|branch| branch.tree == tip.branch.tree && is_aorta(branch)) {
+    let is_aorta = |branch: &&Branch| {
+        let is_wide = 2.0 * usual_radius_of(branch) >= AORTA && branch.length_mm() >= AORTA;
+        branch.tree == tip.branch.tree && is_wide
+    };
+    let aortas: Vec<u32> = tree.branches().iter().filter(is_aorta).map(|branch| branch.id).collect();
+    if aortas.is_empty() {
         return None;
     }
-    if 2.0 * tip.radius >= AORTA {
+    if 2.0 * tip.radius >= AORTA || aortas.contains(&tip.branch.id) {
         return Some(Access::Aortic);
     }
-    // Up to where it comes into the aorta: from there it goes up or down.
-    let mut at = tip.branch;
-    while let Some(parent) = at.parent.map(|parent| &branches[parent as usize]) {
-        if is_aorta(parent) {
-            let turns = branches.iter().filter(|other| is_aorta(other)).filter_map(|other| {
-                let meets = other.id == parent.id || other.parent == Some(parent.id);
-                turn_degrees(tree, [at.id, other.id]).filter(|_| meets)
-            });
-            let is_iliac = turns.fold(f64::INFINITY, f64::min) <= ILIAC;
-            return Some(if is_iliac { Access::Femoral } else { Access::Branch });
-        }
-        at = parent;
-    }
-    Some(Access::Branch)
+    // Where it comes into the aorta, it goes on up or down.
+    let ways: Vec<Vec<u32>> = aortas.iter().map(|&aorta| between(tree, tip.branch.id, aorta)).collect();
+    let nearest = ways.iter().map(Vec::len).min();
+    let last = ways.iter().filter(|way| Some(way.len()) == nearest).filter_map(|way| way.last_chunk::<2>());
+    let turns = last.filter_map(|&pair| turn_degrees(tree, pair));
+    let is_iliac = turns.fold(f64::INFINITY, f64::min) <= ILIAC;
+    Some(if is_iliac { Access::Femoral } else { Access::Branch })
 }
 
 fn tips(tree: &Tree) -> Vec<Tip<'_>> {
