@@ -110,7 +110,17 @@ messages! {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use glam::DVec3;
+
     use super::*;
+    use crate::course::Course;
+    use crate::frame::Progress;
+    use crate::log::Log;
+    use crate::session::Trial;
+    use crate::setup::{Entry, Setup};
+    use lumen_mesh::shapes::{in_capsule, isosurface};
 
     fn near(found: f64, expected: f64) {
         assert!((found - expected).abs() < 1e-6 * expected.abs().max(1.0), "{found}, not {expected}");
@@ -166,5 +176,40 @@ mod tests {
         );
         let said = finding(&forks, &short, &[long]).unwrap().to_string();
         assert!(said.starts_with("This wire is not") && said.contains("reaches 9.6 mm aside"), "{said}");
+    }
+
+    /// The simulation knows nothing of reach.
+    #[test]
+    fn the_tip_that_reaches_into_a_made_fork_gets_in_and_the_one_that_does_not_stays_out() {
+        let (sin, cos) = libm::sincos(60.0f64.to_radians());
+        let joint = DVec3::Z * 80.0;
+        let end = joint + DVec3::new(sin, 0.0, cos) * 59.0;
+        let inside = |p: DVec3| {
+            let trunk = in_capsule(p, DVec3::ZERO, DVec3::Z * 160.0, 12.0);
+            trunk.max(in_capsule(p, joint, end, 6.0))
+        };
+        let (low, high) = (DVec3::new(-13.0, -13.0, -13.0), DVec3::new(58.0, 13.0, 173.0));
+        let mesh = Arc::new(isosurface(low, high, 1.2, inside));
+        let entry = Some(Entry { at: [0.0, 0.0, 4.0], direction: [0.0, 0.0, 1.0] });
+        let open = Setup { entry, target: Some(end.as_vec3().to_array()), seed: 1, ..Setup::default() };
+        let steered = |mut setup: Setup| {
+            let course = Course::new(&mesh, None, &mut setup).unwrap();
+            let reach = course.reach;
+            let mut trial = Trial::new(Arc::new(course), setup).unwrap();
+            trial.set_autopilot(true);
+            (trial, reach)
+        };
+        let (mut trial, reach) = steered(Setup { proposes_wire: true, ..open.clone() });
+        // 1.2 radii are 14.4 mm: a tip of 12 mm is too short.
+        assert_eq!((trial.wire().name.as_str(), reach), (Wire::LONG_TIP, None));
+        trial.finish();
+        let summary = trial.summary();
+        assert!(summary.success && summary.failed_wires.is_empty(), "{}", summary.reason);
+        let (mut trial, reach) = steered(Setup { wire: Wire::named(Wire::LONG_BEND), ..open });
+        assert!(matches!(reach, Some(ReachFinding::Another { .. })), "{reach:?}");
+        (0..2 * summary.steps).for_each(|_| trial.step());
+        assert_eq!(trial.progress(), Progress::Running);
+        let csv = trial.log().csv(1).unwrap();
+        assert!(csv.contains("# This wire is not expected") && Log::read(csv.as_bytes()).is_ok());
     }
 }

@@ -12,6 +12,8 @@ const WIDER: f64 = 1.25;
 /// The ways into a fork and out of it are those over so many radii of the lumen there, from one radius away on: nearer, the
 /// middle of the lumen cuts the corner.
 const OVER: f64 = 2.0;
+/// From so many radii before that on it is looked at on which side the wire comes in: on the outer one of a bend.
+const BEND: f64 = 4.0;
 
 /// Where a route leaves one vessel for another.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +30,8 @@ pub struct Fork {
 
 impl Route {
     /// The forks along it, in order. Where it goes straight on, or straighter than every other way, there is none; nor
-    /// where it comes out of a branch into a wider vessel.
+    /// where it comes out of a branch into a wider vessel, or where it takes a branch at the outer side of a bend: there the
+    /// wire lies.
     pub fn forks(&self, tree: &Tree) -> Vec<Fork> {
         self.branches.windows(2).filter_map(|pair| self.fork(tree, [pair[0], pair[1]])).collect()
     }
@@ -52,7 +55,12 @@ impl Route {
         let straightest = others.map(|way| degrees(way_in, way)).fold(f64::INFINITY, f64::min);
         // Where vessels meet, the largest sphere is wider than each of them.
         let parent_radius_mm = self.at(before).radius;
+        let earlier = self.way(before - BEND * radius, before - (BEND - OVER) * radius);
+        let is_bent = degrees(earlier, way_in) >= STRAIGHT;
+        // A branch at the outer side of a bend is where the wire lies.
+        let lies_there = is_bent && (way_out - way_in).dot(way_in - earlier) < 0.0;
         let is_fork = turn_degrees >= STRAIGHT
+            && !lies_there
             && straightest <= turn_degrees + STRAIGHT
             && branch_radius_mm <= WIDER * parent_radius_mm;
         is_fork.then_some(Fork { arc_mm, parent_radius_mm, branch_radius_mm, turn_degrees })

@@ -172,6 +172,30 @@ fn a_fork_has_the_angle_and_the_radii_that_it_was_made_with() {
 }
 
 #[test]
+fn a_branch_at_the_outer_side_of_a_bend_is_no_fork_and_one_at_its_inner_side_is() {
+    // A trunk of 5 mm radius along a half circle of 40 mm about the y axis, and a straight piece on either end.
+    let at =
+        |degrees: f64, radius: f64| DVec3::new(-degrees.to_radians().cos(), 0.0, degrees.to_radians().sin()) * radius;
+    let mut line = vec![at(0.0, 40.0) - DVec3::Z * 40.0];
+    line.extend((0..=36).map(|i| at(5.0 * f64::from(i), 40.0)));
+    line.push(at(180.0, 40.0) - DVec3::Z * 40.0);
+    let joint = at(90.0, 40.0);
+    for (side, expected) in [(1.0, 0), (-1.0, 1)] {
+        // By 50 degrees, outwards or inwards; there it goes past the other piece.
+        let way = DVec3::new(50.0_f64.to_radians().cos(), 0.0, side * 50.0_f64.to_radians().sin());
+        let end = joint + (way + DVec3::Y * if side < 0.0 { 0.5 } else { 0.0 }) * 45.0;
+        let inside = |p: DVec3| {
+            let depths = line.windows(2).map(|pair| in_capsule(p, pair[0], pair[1], 5.0));
+            depths.fold(in_capsule(p, joint, end, 3.0), f64::max)
+        };
+        let mesh = isosurface(DVec3::new(-46.0, -6.0, -46.0), DVec3::new(46.0, 30.0, 80.0), 0.8, inside);
+        let tree = Tree::new(&mesh).unwrap();
+        let route = tree.route(line[0].as_vec3(), end.as_vec3()).unwrap();
+        assert_eq!(route.forks(&tree).len(), expected, "{side}: {:?}", route.forks(&tree));
+    }
+}
+
+#[test]
 fn where_a_vessel_parts_in_two_alike_each_way_is_a_fork() {
     let (mesh, [bottom, joint, left, right]) = fork();
     let tree = Tree::new(&mesh).unwrap();
