@@ -88,7 +88,7 @@ pub trait Proposals {
     /// with its name.
     fn entries(&self) -> Vec<(PlaceName, Entry)>;
 
-    /// Places where a wire from `from` could go, best first: the farthest, and last those to which the way turns back at a
+    /// Places where a wire from `from` could go, best first: far, and thin; last those to which the way turns back at a
     /// fork. Where the lumen on the way becomes thinner than `room_mm` across, the last place before that.
     fn targets(&self, from: Vec3, room_mm: f64) -> Vec<Target>;
 }
@@ -115,7 +115,7 @@ impl Proposals for Tree {
         };
         let tips = tips(self);
         let widest = tips.iter().map(|tip| tip.radius).fold(0.0, f64::max);
-        let mut found: Vec<(bool, bool, Target)> = Vec::new();
+        let mut found: Vec<([bool; 2], f64, Target)> = Vec::new();
         for tip in &tips {
             let end = tip.branch.points[tip.at].at.as_vec3();
             let Some(last) = nearest_ball(self, end).filter(|&ball| ways.length[ball as usize].is_finite()) else {
@@ -155,9 +155,10 @@ impl Proposals for Tree {
                 length_mm: length(there),
                 usual_radius_mm: usual_radius(pieces),
             };
-            found.push((tip.radius < THREAD * widest, turns_back(target.branch), target));
+            let last = [tip.radius < THREAD * widest, turns_back(target.branch)];
+            found.push((last, target.length_mm / radius.sqrt(), target));
         }
-        found.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(b.2.length_mm.total_cmp(&a.2.length_mm)));
+        found.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
         found.into_iter().map(|(.., target)| target).collect()
     }
 }
