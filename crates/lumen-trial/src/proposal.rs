@@ -49,7 +49,10 @@ pub(super) fn suiting(route: &Route, first: &Wire) -> Vec<Wire> {
 
 /// The best target that a wire can reach.
 pub(super) fn reached(tree: &Tree, from: Vec3, wire: &Wire) -> Option<Target> {
-    tree.targets(from, ROOM * wire.diameter_mm).into_iter().next()
+    // The middle of the lumen may go another way there than the spheres do that the room was taken of.
+    let fits =
+        |target: &Target| tree.route(from, target.at).is_ok_and(|route| route.clearance(wire.diameter_mm).is_ok());
+    tree.targets(from, ROOM * wire.diameter_mm).into_iter().find(fits)
 }
 
 /// The wire for the way to a target; without one, for the best that it can reach, and that.
