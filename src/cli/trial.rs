@@ -251,6 +251,9 @@ fn print(summary: &Summary) {
             100.0 * summary.max_contact_share
         ),
     );
+    if let Some(sentence) = &summary.reach {
+        row("reach", sentence);
+    }
     let kinds = summary.step_kinds;
     row(
         "balance",

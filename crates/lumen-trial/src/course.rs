@@ -6,8 +6,9 @@ use glam::DVec3;
 use web_time::Instant;
 
 use super::placement::{PlacementError, rotation};
-use super::proposal::{next_wires, proposed, proposed_entry, reached};
-use super::route::{PlaceName, Proposals as _, Route, RouteError, Routes as _, phantom_task};
+use super::proposal::{proposed, proposed_entry, reached, suiting};
+use super::reach::{ReachFinding, finding, rank};
+use super::route::{Fork, PlaceName, Proposals as _, Route, RouteError, Routes as _, phantom_task};
 use super::setup::{Entry, Setup};
 use super::simulation::Simulation;
 use super::wall::Wall;
@@ -22,6 +23,9 @@ use lumen_vessel::{Tree, TreeError};
 
 /// By how much a seed moves the entry, in mm, turns it, in radians, and changes friction, as a part.
 const VARIED: (f64, f64, f64) = (0.5, 2.0 * std::f64::consts::PI / 180.0, 0.2);
+
+/// So many wires may follow one that is proposed and fails.
+const NEXT_WIRES: usize = 3;
 
 messages! {
     /// Why a trial cannot begin.
@@ -59,6 +63,10 @@ pub struct Course {
     pub tree: Tree,
     /// The way.
     pub route: Route,
+    /// Its forks.
+    pub forks: Vec<Fork>,
+    /// What the tip of the wire that goes in first does not reach.
+    pub reach: Option<ReachFinding>,
     /// Places where a wire could enter, with their names.
     pub entries: Vec<(PlaceName, Entry)>,
     /// Places where it could go, with their names.
@@ -121,16 +129,25 @@ impl Course {
         setup.target = Some(target);
         let route = tree.route(Vec3::from(entry.at), Vec3::from(target))?;
         route.clearance(setup.wire.diameter_mm)?;
+        let forks = route.forks(&tree);
+        let mut wires = suiting(&route, &setup.wire);
+        rank(&mut wires, &forks);
         if proposes_wire {
-            setup.next_wires = next_wires(&route, &setup.wire);
+            if sample.is_none() && !wires.is_empty() {
+                setup.wire = wires.remove(0);
+            }
+            wires.retain(|wire| *wire != setup.wire);
+            wires.truncate(NEXT_WIRES);
+            setup.next_wires.clone_from(&wires);
         }
+        let reach = finding(&forks, &setup.wire, &wires);
         if entry.direction == [0.0; 3] {
             let direction = route.at(0.0).direction.as_vec3().to_array();
             setup.entry = Some(Entry { direction, ..entry });
         }
         let route_ms = milliseconds(start);
         let fingerprint = fingerprint(mesh);
-        Ok(Self { wall, tree, route, entries, targets, wall_ms, route_ms, fingerprint })
+        Ok(Self { wall, tree, route, forks, reach, entries, targets, wall_ms, route_ms, fingerprint })
     }
 
     /// A wire at the entry, varied by the seed; also its coefficients of friction.

@@ -50,6 +50,7 @@ pub mod peak_force_map;
 pub mod placement;
 mod press;
 mod proposal;
+pub mod reach;
 pub mod report;
 pub mod rod;
 pub mod route;
@@ -77,6 +78,7 @@ pub const MESSAGES: &[&[lumen_message::Signature]] = &[
     missed::MissedForkText::MESSAGES,
     missed::Taken::MESSAGES,
     placement::PlacementError::MESSAGES,
+    reach::ReachFinding::MESSAGES,
     route::AtText::MESSAGES,
     route::PlaceLabel::MESSAGES,
     route::RouteError::MESSAGES,

@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::STEP;
 use super::meter::SinceRow;
+use super::reach::ReachFinding;
 use super::setup::{Command, Input, Setup};
 use lumen_message::messages;
 
@@ -81,6 +82,8 @@ pub struct Row {
 pub struct Log {
     setup: Setup,
     surface: u64,
+    /// What the tip of the first wire does not reach.
+    reach: Option<ReachFinding>,
     /// The rows.
     pub rows: Vec<Row>,
 }
@@ -159,8 +162,8 @@ pub struct Recorded {
 }
 
 impl Log {
-    pub(super) fn new(setup: Setup, surface: u64) -> Self {
-        Self { setup, surface, rows: Vec::new() }
+    pub(super) fn new(setup: Setup, surface: u64, reach: Option<ReachFinding>) -> Self {
+        Self { setup, surface, reach, rows: Vec::new() }
     }
 
     /// Input and wire of each row.
@@ -174,8 +177,9 @@ impl Log {
     /// When the setup is not to be had as JSON.
     pub fn csv(&self, steps: u64) -> Result<String, serde_json::Error> {
         let setup = serde_json::to_string(&self.setup)?;
+        let reach = self.reach.map_or(String::new(), |reach| format!("# {reach}\n"));
         let mut text = format!(
-            "# lumen trial log, schema {SCHEMA}\n# not for clinical decisions\n# surface {:016x}\n# steps {steps}\n# setup {setup}\n{COLUMNS}\n",
+            "# lumen trial log, schema {SCHEMA}\n# not for clinical decisions\n{reach}# surface {:016x}\n# steps {steps}\n# setup {setup}\n{COLUMNS}\n",
             self.surface
         );
         for row in &self.rows {

@@ -7,7 +7,7 @@ use lumen_mesh::Vec3;
 use lumen_vessel::Tree;
 
 /// The lumen is so many times as wide as the wire all along to a target that is proposed.
-const ROOM: f64 = 1.5;
+const ROOM: f64 = 2.0;
 /// A wire of 0.035 in is proposed for a way of at least this usual radius, in mm, and as far as it comes: past small
 /// branches it goes straight on, and at forks its long bend reaches to the other side of a wide lumen.
 const WIDE: f64 = 2.0;
@@ -33,18 +33,26 @@ pub(super) fn proposed_entry(tree: &Tree, entries: &[(PlaceName, Entry)], wire: 
     (0..lengths.len()).find(is_far).map(|i| entries[i].1)
 }
 
-/// The wires that go in, one after another, where one that is proposed fails: those whose tip reaches another way aside. Those
-/// for which there is no room are left out.
-pub(super) fn next_wires(route: &Route, first: &Wire) -> Vec<Wire> {
+/// The wires for which there is room along a route, in the order in which they go in where their tips get in alike: of the
+/// diameter of `first`, the shorter tip before the longer, and that of 60 degrees before the catheter's curve of 90, which
+/// slides past forks that turn by less.
+pub(super) fn suiting(route: &Route, first: &Wire) -> Vec<Wire> {
     let is_thick = first.diameter_mm > Wire::named(Wire::USUAL).diameter_mm;
-    let names = if is_thick { [Wire::CURVE, Wire::USUAL] } else { [Wire::LONG_BEND, "workhorse-j"] };
-    let wires = names.into_iter().map(Wire::named);
+    let names: &[&str] = if is_thick {
+        &[Wire::LONG_BEND, Wire::LONG_TIP, Wire::CURVE, Wire::USUAL]
+    } else {
+        &[Wire::USUAL, Wire::LONG_BEND, "workhorse-j"]
+    };
+    let wires = names.iter().map(|name| Wire::named(name));
     wires.filter(|wire| route.clearance(ROOM * wire.diameter_mm).is_ok()).collect()
 }
 
 /// The best target that a wire can reach.
 pub(super) fn reached(tree: &Tree, from: Vec3, wire: &Wire) -> Option<Target> {
-    tree.targets(from, ROOM * wire.diameter_mm).into_iter().next()
+    // The middle of the lumen may go another way there than the spheres do that the room was taken of.
+    let fits =
+        |target: &Target| tree.route(from, target.at).is_ok_and(|route| route.clearance(wire.diameter_mm).is_ok());
+    tree.targets(from, ROOM * wire.diameter_mm).into_iter().find(fits)
 }
 
 /// The wire for the way to a target; without one, for the best that it can reach, and that.
@@ -86,16 +94,16 @@ mod tests {
     }
 
     #[test]
-    fn the_wires_that_follow_have_room_and_another_bend() {
+    fn the_wires_of_a_route_have_room() {
         let of = |radius: f32, first| {
             let tree = Tree::new(&tube(32, 60, 40.0, |_| radius)).unwrap();
             let route = tree.route(Vec3::Z * 3.0, Vec3::Z * 37.0).unwrap();
-            next_wires(&route, &Wire::named(first)).into_iter().map(|wire| wire.name).collect::<Vec<_>>()
+            suiting(&route, &Wire::named(first)).into_iter().map(|wire| wire.name).collect::<Vec<_>>()
         };
-        assert_eq!(of(2.0, Wire::LONG_BEND), [Wire::CURVE, Wire::USUAL]);
-        assert_eq!(of(2.0, Wire::USUAL), [Wire::LONG_BEND, "workhorse-j"]);
-        // 1.2 mm across: 1.5 times 0.356 mm, and not 0.889.
-        assert_eq!(of(0.6, Wire::USUAL), ["workhorse-j"]);
+        assert_eq!(of(2.0, Wire::LONG_BEND), [Wire::LONG_BEND, Wire::LONG_TIP, Wire::CURVE, Wire::USUAL]);
+        assert_eq!(of(2.0, Wire::USUAL), [Wire::USUAL, Wire::LONG_BEND, "workhorse-j"]);
+        // 1.2 mm across: twice 0.356 mm, and not 0.889.
+        assert_eq!(of(0.6, Wire::USUAL), [Wire::USUAL, "workhorse-j"]);
     }
 
     #[test]

@@ -47,6 +47,8 @@ pub struct Summary {
     pub wire: String,
     /// The names of the wires that failed before it, in turn.
     pub failed_wires: Vec<String>,
+    /// What the tip of the first of them does not reach, as a sentence in English.
+    pub reach: Option<String>,
     /// Where it entered, before the seed varies that.
     pub entry: Option<Entry>,
     /// Where it should go, in mm.
@@ -206,6 +208,7 @@ impl Trial {
             surface: format!("{:016x}", course.fingerprint),
             wire: self.wire().name.clone(),
             failed_wires: self.failed_wires().into_iter().map(str::to_owned).collect(),
+            reach: course.reach.map(|reach| reach.to_string()),
             entry: self.setup().entry,
             target: self.setup().target,
             load_n_per_mm: self.setup().load,

@@ -10,6 +10,7 @@ use crate::app::document::Document;
 use crate::app::keys::pressed;
 use crate::app::row::{remark, step, title, warning, wrapped};
 use crate::app::theme;
+use crate::language::tell;
 use crate::pipeline::settings::Smoothing;
 use crate::say;
 
@@ -91,6 +92,9 @@ fn open(ui: &mut Ui, trial: &Trial, shown: &Open, asked: &mut Vec<Action>) {
     ui.separator();
     let mut setup = trial.setup.clone();
     ui.push_id("wire", |ui| setup::wire(ui, &mut setup, trial.proposed_wire()));
+    if let Some(reach) = trial.session().and_then(|session| session.ready.reach.as_ref()) {
+        warning(ui, &tell(reach));
+    }
     ui.push_id("places", |ui| {
         if let Some(session) = trial.session() {
             setup::places(ui, &session.ready, &mut setup, shown.pick, asked);

@@ -62,6 +62,7 @@ pub(super) fn words(preset: &str) -> String {
         "workhorse-j" => say!("trial-wire-workhorse-j"),
         "035-j" => say!("trial-wire-035-j"),
         "035-stiff-j" => say!("trial-wire-035-stiff-j"),
+        "035-angled-20" => say!("trial-wire-035-angled-20"),
         "035-curve" => say!("trial-wire-035-curve"),
         "035-angled" => say!("trial-wire-035-angled"),
         other => other.to_owned(),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lumen_message::Told;
+use lumen_message::{Message, Told};
 use serde::{Deserialize, Serialize};
 
 use crate::engine::link::Link;
@@ -168,6 +168,8 @@ pub struct TrialReady {
     pub wall_ms: f64,
     /// Milliseconds to find tree and route.
     pub route_ms: f64,
+    /// What the tip of the wire does not reach: a sentence.
+    pub reach: Option<Told>,
 }
 
 impl TrialReady {
@@ -181,6 +183,7 @@ impl TrialReady {
             targets: course.targets.clone(),
             wall_ms: course.wall_ms,
             route_ms: course.route_ms,
+            reach: course.reach.as_ref().map(Message::told),
         }
     }
 }

@@ -120,6 +120,7 @@ trial-wire-035-j = 0,035" J-Spitze
 trial-wire-035-stiff-j = 0,035" steif, J
 trial-wire-035-curve = 0,035" mit Katheterkurve
 trial-wire-035-angled = 0,035" gewinkelt, lange Biegung
+trial-wire-035-angled-20 = 0,035" gewinkelt, Spitze 20 mm
 trial-wire-numbers = Spitze, Steifigkeit, Reibung
 trial-tip-angle = Spitzenwinkel
 trial-tip-angle-help = Der Winkel, um den die Spitze gebogen ist, bevor sie in das Gefäß kommt
@@ -335,6 +336,11 @@ trial-wire-bend-angle = Winkel der Biegung
 trial-wire-straight-end = gerades Ende
 trial-wire-static-friction = Haftreibung
 trial-wire-kinetic-friction = Gleitreibung
+
+## What a wire's tip does not reach
+
+trial-reach-none = Von keinem Draht ist zu erwarten, dass er in den Ast an der Gabelung nach { $along } mm der Route gelangt; sie biegt um { $turn }° aus einem { $width } mm weiten Lumen ab: Dafür muss eine Spitze { $takes } mm zur Seite reichen, und diese reicht { $reach } mm.
+trial-reach-another = Von diesem Draht ist nicht zu erwarten, dass er in den Ast an der Gabelung nach { $along } mm der Route gelangt; sie biegt um { $turn }° aus einem { $width } mm weiten Lumen ab: Dafür muss eine Spitze { $takes } mm zur Seite reichen, und diese reicht { $reach } mm. Der vorgeschlagene Draht reicht hinein.
 
 ## Why a log cannot be replayed: clauses as above
 

@@ -126,6 +126,7 @@ trial-wire-035-j = 0.035 in J tip
 trial-wire-035-stiff-j = 0.035 in stiff J
 trial-wire-035-curve = 0.035 in, catheter's curve
 trial-wire-035-angled = 0.035 in angled, long bend
+trial-wire-035-angled-20 = 0.035 in angled, tip of 20 mm
 # The head of a fold.
 trial-wire-numbers = Tip, stiffness, friction
 trial-tip-angle = Tip angle

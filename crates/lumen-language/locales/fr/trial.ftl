@@ -120,6 +120,7 @@ trial-wire-035-j = 0,035" pointe en J
 trial-wire-035-stiff-j = 0,035" rigide, en J
 trial-wire-035-curve = 0,035" à courbe de cathéter
 trial-wire-035-angled = 0,035" coudé, longue courbure
+trial-wire-035-angled-20 = 0,035" coudé, pointe de 20 mm
 trial-wire-numbers = Pointe, rigidité, frottement
 trial-tip-angle = Angle pointe
 trial-tip-angle-help = L'angle dont la pointe est courbée avant d'entrer dans le vaisseau
@@ -335,6 +336,11 @@ trial-wire-bend-angle = angle de la courbure
 trial-wire-straight-end = extrémité droite
 trial-wire-static-friction = frottement statique
 trial-wire-kinetic-friction = frottement cinétique
+
+## What a wire's tip does not reach
+
+trial-reach-none = Aucun guide ne devrait entrer dans la branche à la bifurcation à { $along } mm sur le trajet, qui tourne de { $turn }° hors d'une lumière large de { $width } mm : il faut une pointe qui se porte à { $takes } mm de côté, et celle-ci se porte à { $reach } mm.
+trial-reach-another = Ce guide ne devrait pas entrer dans la branche à la bifurcation à { $along } mm sur le trajet, qui tourne de { $turn }° hors d'une lumière large de { $width } mm : il faut une pointe qui se porte à { $takes } mm de côté, et celle-ci se porte à { $reach } mm. Le guide proposé y arrive.
 
 ## Why a log cannot be replayed: clauses as above
 

@@ -83,6 +83,8 @@ impl Trial {
             wall,
             tree: own.tree.clone(),
             route: own.route.clone(),
+            forks: own.forks.clone(),
+            reach: own.reach,
             entries: own.entries.clone(),
             targets: own.targets.clone(),
             wall_ms: milliseconds(start),

@@ -1,6 +1,7 @@
 //! Where a wire can go: routes through the vessel tree of a surface (`way`), and where they could begin and end
 //! (`propose`).
 
+mod forks;
 mod place_name;
 mod propose;
 #[cfg(test)]
@@ -9,6 +10,7 @@ mod way;
 
 use std::fmt;
 
+pub use forks::Fork;
 pub use place_name::{PlaceLabel, PlaceName, TargetLabel, WayEnd};
 pub use propose::{Proposals, Target, phantom_task};
 pub use way::{CrossSection, OnRoute, Route, RoutePoint, Routes};

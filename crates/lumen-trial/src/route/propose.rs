@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
+use super::forks::turn_degrees;
+use super::way::between;
 use super::{PlaceName, WayEnd, usual_radius};
 use crate::setup::Entry;
 use lumen_vessel::phantom::{Sample, Vessel, vessels};
@@ -17,6 +19,25 @@ const NEAREST: f64 = 5.0;
 
 /// An end with less than this part of the widest end's radius is proposed last: in a noisy scan it is no vessel.
 const THREAD: f64 = 0.03;
+
+/// A vessel of this diameter in mm is an aorta; a common iliac artery has 10, a carotid 7, a coronary artery 3 to 5.
+const AORTA: f64 = 12.0;
+/// From an iliac artery a wire turns into the aorta by no more degrees, from the arteries of bowels, kidneys and the neck by
+/// more.
+const ILIAC: f64 = 45.0;
+/// A way that turns by more degrees at a fork turns back.
+const BACK: f64 = 90.0;
+
+/// Where a wire comes into an aorta and its branches, in the order of preference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Access {
+    /// From the groin: an artery that the aorta parts into.
+    Femoral,
+    /// The aorta is cut off: where it is thinner the wire comes from, against the blood.
+    Aortic,
+    /// From an arm or the neck, or another of its branches.
+    Branch,
+}
 
 /// A place where a wire could go.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,30 +82,40 @@ struct Tip<'a> {
 /// Where a wire could enter a vessel tree, and where it could go.
 pub trait Proposals {
     /// Places where a wire could enter, a little inside of the vessels' ends and pointing inwards, best first: those of
-    /// the largest tree, the widest first, as an artery is entered where it is wide. Each with its name.
+    /// the largest tree, open ones, as a clinician comes in. Into an aorta that is against the blood: from the groin by the
+    /// widest artery that the aorta parts into, then where it is cut off and thinner, then by its other branches. Other
+    /// vessels, as the coronary arteries, are entered where they are widest: there a guide catheter lies in the ostium. Each
+    /// with its name.
     fn entries(&self) -> Vec<(PlaceName, Entry)>;
 
-    /// Places where a wire from `from` could go, best first: far, and thin. Where the lumen on the way becomes thinner
-    /// than `room_mm` across, the last place before that.
+    /// Places where a wire from `from` could go, best first: far, and thin; last those to which the way turns back at a
+    /// fork. Where the lumen on the way becomes thinner than `room_mm` across, the last place before that.
     fn targets(&self, from: Vec3, room_mm: f64) -> Vec<Target>;
 }
 
 impl Proposals for Tree {
     fn entries(&self) -> Vec<(PlaceName, Entry)> {
-        let mut tips = tips(self);
-        tips.sort_by(|a, b| {
-            let key = |tip: &Tip<'_>| (tip.branch.tree, tip.end != End::Open);
-            key(a).cmp(&key(b)).then(b.radius.total_cmp(&a.radius)).then(a.branch.id.cmp(&b.branch.id))
+        let mut tips: Vec<(Option<Access>, Tip<'_>)> =
+            tips(self).into_iter().map(|tip| (access(self, &tip), tip)).collect();
+        tips.sort_by(|(by, a), (other, b)| {
+            let key = |by: Option<Access>, tip: &Tip<'_>| (tip.branch.tree, tip.end != End::Open, by);
+            let widest = b.radius.total_cmp(&a.radius);
+            let width = if *by == Some(Access::Aortic) { widest.reverse() } else { widest };
+            key(*by, a).cmp(&key(*other, b)).then(width).then(a.branch.id.cmp(&b.branch.id))
         });
         let name = |tip: &Tip<'_>| PlaceName::Entry { branch: tip.branch.id, diameter_mm: 2.0 * tip.radius };
-        tips.iter().map(|tip| (name(tip), tip.entry())).collect()
+        tips.iter().map(|(_, tip)| (name(tip), tip.entry())).collect()
     }
 
     fn targets(&self, from: Vec3, room_mm: f64) -> Vec<Target> {
         let Some(ways) = nearest_ball(self, from).map(|ball| self.graph.ways(ball)) else { return Vec::new() };
+        let own = self.locate(from.as_dvec3(), None).map(|located| located.branch);
+        let turns_back = |target: u32| {
+            own.is_some_and(|own| between(self, own, target).windows(2).any(|pair| is_back(self, [pair[0], pair[1]])))
+        };
         let tips = tips(self);
         let widest = tips.iter().map(|tip| tip.radius).fold(0.0, f64::max);
-        let mut found: Vec<(bool, f64, Target)> = Vec::new();
+        let mut found: Vec<([bool; 2], f64, Target)> = Vec::new();
         for tip in &tips {
             let end = tip.branch.points[tip.at].at.as_vec3();
             let Some(last) = nearest_ball(self, end).filter(|&ball| ways.length[ball as usize].is_finite()) else {
@@ -124,11 +155,45 @@ impl Proposals for Tree {
                 length_mm: length(there),
                 usual_radius_mm: usual_radius(pieces),
             };
-            found.push((tip.radius < THREAD * widest, target.length_mm / radius.sqrt(), target));
+            let last = [tip.radius < THREAD * widest, turns_back(target.branch)];
+            found.push((last, target.length_mm / radius.sqrt(), target));
         }
         found.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
         found.into_iter().map(|(.., target)| target).collect()
     }
+}
+
+/// Whether a way turns back where it leaves one branch for another.
+fn is_back(tree: &Tree, pair: [u32; 2]) -> bool {
+    turn_degrees(tree, pair).is_some_and(|turn| turn > BACK)
+}
+
+/// The radius that half of a branch is narrower than, in mm.
+fn usual_radius_of(branch: &Branch) -> f64 {
+    let pairs = branch.points.windows(2);
+    usual_radius(pairs.map(|pair| (pair[1].radius, pair[0].at.distance(pair[1].at))).collect())
+}
+
+/// How a wire that enters at an end comes into an aorta; `None` where its tree has none.
+fn access(tree: &Tree, tip: &Tip<'_>) -> Option<Access> {
+    let is_aorta = |branch: &&Branch| {
+        let is_wide = 2.0 * usual_radius_of(branch) >= AORTA && branch.length_mm() >= AORTA;
+        branch.tree == tip.branch.tree && is_wide
+    };
+    let aortas: Vec<u32> = tree.branches().iter().filter(is_aorta).map(|branch| branch.id).collect();
+    if aortas.is_empty() {
+        return None;
+    }
+    if 2.0 * tip.radius >= AORTA || aortas.contains(&tip.branch.id) {
+        return Some(Access::Aortic);
+    }
+    // Where it comes into the aorta, it goes on up or down.
+    let ways: Vec<Vec<u32>> = aortas.iter().map(|&aorta| between(tree, tip.branch.id, aorta)).collect();
+    let nearest = ways.iter().map(Vec::len).min();
+    let last = ways.iter().filter(|way| Some(way.len()) == nearest).filter_map(|way| way.last_chunk::<2>());
+    let turns = last.filter_map(|&pair| turn_degrees(tree, pair));
+    let is_iliac = turns.fold(f64::INFINITY, f64::min) <= ILIAC;
+    Some(if is_iliac { Access::Femoral } else { Access::Branch })
 }
 
 fn tips(tree: &Tree) -> Vec<Tip<'_>> {

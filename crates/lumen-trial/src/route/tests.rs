@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::*;
-use lumen_mesh::shapes::{fork, joined, tube};
+use lumen_mesh::shapes::{fork, in_capsule, isosurface, joined, tube};
 use lumen_vessel::{Branch, End, Tree};
 
 fn near(found: f64, expected: f64, part: f64) {
@@ -140,4 +140,126 @@ fn a_pinched_vessel_ends_where_it_is_pinched_and_a_narrow_one_goes_on() {
     assert!((route.points[route.smallest_at].at.z - 20.0).abs() < 0.3);
     let shut = Tree::new(&waisted(1e-4)).unwrap().route(from, to).unwrap_err();
     assert!(matches!(shut, RouteError::NoWay { at, .. } if (at.0[2] - 20.0).abs() < 1.5), "{shut}");
+}
+
+/// A trunk of 5 mm radius along z, and a branch that leaves it half-way by an angle; all ends are round.
+fn side_branch(degrees: f64, radius: f64) -> (lumen_mesh::TriMesh, [DVec3; 3]) {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let [bottom, joint, top] = [0.0, 50.0, 100.0].map(|z| DVec3::Z * z);
+    let end = joint + DVec3::new(sin, 0.0, cos) * 45.0;
+    let inside = |p: DVec3| in_capsule(p, bottom, top, 5.0).max(in_capsule(p, joint, end, radius));
+    let (low, high) = (DVec3::new(-6.0, -6.0, -6.0), DVec3::new(50.0, 6.0, 106.0));
+    (isosurface(low, high, 0.5, inside), [bottom, top, end])
+}
+
+#[test]
+fn a_fork_has_the_angle_and_the_radii_that_it_was_made_with() {
+    for (degrees, radius) in [(30.0, 3.0), (45.0, 2.0), (60.0, 3.0), (75.0, 2.0), (90.0, 3.0)] {
+        let (mesh, [bottom, top, end]) = side_branch(degrees, radius);
+        let tree = Tree::new(&mesh).unwrap();
+        let forks = |from: DVec3, to: DVec3| tree.route(from.as_vec3(), to.as_vec3()).unwrap().forks(&tree);
+        let into = forks(bottom, end);
+        let [fork] = into[..] else { panic!("{degrees} degrees: {into:?}") };
+        assert!((fork.turn_degrees - degrees).abs() < 5.0, "{degrees} degrees: {fork:?}");
+        near(fork.parent_radius_mm, 5.0, 0.1);
+        near(fork.branch_radius_mm, radius, 0.1);
+        // Their axes part at 50 mm, and that of the branch leaves the lumen of the trunk so much farther on.
+        assert!((fork.arc_mm - 50.0).abs() < 5.0 / degrees.to_radians().sin(), "{fork:?}");
+        assert_eq!(forks(bottom, top), [], "past the branch it goes straight on");
+        assert_eq!(forks(end, bottom), [], "out of the branch the wall of the trunk leads on");
+    }
+}
+
+#[test]
+fn a_branch_at_the_outer_side_of_a_bend_is_no_fork_and_one_at_its_inner_side_is() {
+    // A trunk of 5 mm radius along a half circle of 40 mm about the y axis, and a straight piece on either end.
+    let at =
+        |degrees: f64, radius: f64| DVec3::new(-degrees.to_radians().cos(), 0.0, degrees.to_radians().sin()) * radius;
+    let mut line = vec![at(0.0, 40.0) - DVec3::Z * 40.0];
+    line.extend((0..=36).map(|i| at(5.0 * f64::from(i), 40.0)));
+    line.push(at(180.0, 40.0) - DVec3::Z * 40.0);
+    let joint = at(90.0, 40.0);
+    for (side, expected) in [(1.0, 0), (-1.0, 1)] {
+        // By 50 degrees, outwards or inwards; there it goes past the other piece.
+        let way = DVec3::new(50.0_f64.to_radians().cos(), 0.0, side * 50.0_f64.to_radians().sin());
+        let end = joint + (way + DVec3::Y * if side < 0.0 { 0.5 } else { 0.0 }) * 45.0;
+        let inside = |p: DVec3| {
+            let depths = line.windows(2).map(|pair| in_capsule(p, pair[0], pair[1], 5.0));
+            depths.fold(in_capsule(p, joint, end, 3.0), f64::max)
+        };
+        let mesh = isosurface(DVec3::new(-46.0, -6.0, -46.0), DVec3::new(46.0, 30.0, 80.0), 0.8, inside);
+        let tree = Tree::new(&mesh).unwrap();
+        let route = tree.route(line[0].as_vec3(), end.as_vec3()).unwrap();
+        assert_eq!(route.forks(&tree).len(), expected, "{side}: {:?}", route.forks(&tree));
+    }
+}
+
+#[test]
+fn where_a_vessel_parts_in_two_alike_each_way_is_a_fork() {
+    let (mesh, [bottom, joint, left, right]) = fork();
+    let tree = Tree::new(&mesh).unwrap();
+    for (end, radius) in [(left, 3.0), (right, 2.0)] {
+        let forks = tree.route(bottom.as_vec3(), end.as_vec3()).unwrap().forks(&tree);
+        let [fork] = forks[..] else { panic!("{forks:?}") };
+        assert!((fork.turn_degrees - 40.0).abs() < 5.0 && (fork.arc_mm - joint.z).abs() < 4.0, "{fork:?}");
+        near(fork.parent_radius_mm, 4.0, 0.15);
+        near(fork.branch_radius_mm, radius, 0.1);
+    }
+}
+
+/// An aorta of 18 mm that parts into two arteries of 10 mm at 25 degrees each, the one longer, with one of 6 mm at its side,
+/// all `scale` times as large: the ends of the aorta, of the long and the short artery, and of that at the side.
+fn aorta(scale: f64) -> (lumen_mesh::TriMesh, [DVec3; 4]) {
+    let (sin, cos) = 25.0_f64.to_radians().sin_cos();
+    let (top, fork, renal) = (DVec3::Z * 130.0, DVec3::ZERO, DVec3::Z * 50.0);
+    let [long, short] = [(120.0, 1.0), (80.0, -1.0)].map(|(length, side)| DVec3::new(side * sin, 0.0, -cos) * length);
+    let side = renal + DVec3::new(0.0, 48.0, 16.0);
+    let vessels = [(top, fork, 9.0), (fork, long, 5.0), (fork, short, 5.0), (renal, side, 3.0)];
+    let inside = |p: DVec3| {
+        let depths = vessels.map(|(from, to, radius)| in_capsule(p, scale * from, scale * to, scale * radius));
+        depths.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    };
+    let (low, high) = (DVec3::new(-42.0, -11.0, -116.0), DVec3::new(58.0, 53.0, 141.0));
+    (isosurface(scale * low, scale * high, scale, inside), [top, long, short, side].map(|end| scale * end))
+}
+
+/// The end that each place lies at, of those that are given.
+fn ends_of(places: impl Iterator<Item = [f32; 3]>, ends: &[DVec3]) -> Vec<usize> {
+    let distance = |place: [f32; 3], i: usize| Vec3::from(place).as_dvec3().distance(ends[i]);
+    let nearest = |place| (0..ends.len()).min_by(|&a, &b| distance(place, a).total_cmp(&distance(place, b))).unwrap();
+    places.map(nearest).collect()
+}
+
+#[test]
+fn an_aorta_is_entered_from_the_groin_and_other_vessels_where_they_are_wide() {
+    const TOP: usize = 0;
+    const LONG: usize = 1;
+    const SHORT: usize = 2;
+    const SIDE: usize = 3;
+    let entered = |scale| {
+        let (mesh, ends) = aorta(scale);
+        let tree = Tree::new(&mesh).unwrap();
+        ends_of(tree.entries().into_iter().map(|(_, entry)| entry.at), &ends)
+    };
+    let found = entered(1.0);
+    assert!(matches!(found[..], [LONG, SHORT, TOP, SIDE] | [SHORT, LONG, TOP, SIDE]), "{found:?}");
+    // A quarter as large it is as wide as a coronary artery.
+    assert_eq!(entered(0.25)[0], TOP);
+    assert_eq!(entered(0.25)[3], SIDE);
+}
+
+#[test]
+fn a_target_behind_a_turn_back_is_the_last() {
+    let (mesh, ends) = aorta(1.0);
+    let tree = Tree::new(&mesh).unwrap();
+    let from = |end: DVec3| {
+        let targets = tree.targets((0.9 * end).as_vec3(), 0.0);
+        ends_of(targets.into_iter().map(|target| target.at.to_array()), &ends)
+    };
+    let [top, long, short, _] = ends;
+    // From below, the other artery is far and thin, and behind a turn of 130 degrees, that at the side behind one of 72.
+    assert_eq!(from(short), [3, 0, 1]);
+    assert_eq!(from(long), [3, 0, 2]);
+    // From above, that at the side is behind a turn of 108.
+    assert_eq!(from(top), [1, 2, 3], "the longer artery first");
 }

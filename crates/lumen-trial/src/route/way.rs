@@ -223,7 +223,7 @@ fn branches_along(tree: &Tree, points: &[RoutePoint]) -> Vec<u32> {
 }
 
 /// The branches from one to another by the tree, both included.
-fn between(tree: &Tree, from: u32, to: u32) -> Vec<u32> {
+pub(super) fn between(tree: &Tree, from: u32, to: u32) -> Vec<u32> {
     let up = |branch: u32| {
         std::iter::successors(Some(branch), |&at| tree.branches()[at as usize].parent).collect::<Vec<u32>>()
     };

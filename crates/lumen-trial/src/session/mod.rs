@@ -115,7 +115,7 @@ impl Trial {
             felt: PeakForceMap::default(),
             rows: 0,
         };
-        let log = Log::new(setup.clone(), course.fingerprint);
+        let log = Log::new(setup.clone(), course.fingerprint, course.reach);
         let mut trial = Self {
             course,
             setup,

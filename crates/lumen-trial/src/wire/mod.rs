@@ -53,7 +53,7 @@ type Numbers = (&'static str, f64, [f64; 2], [f64; 2], f64, f64, f64);
 ///
 /// `guidewire.md` in the notes gives the figures: a solid core's `EI = E pi d^4 / 64`; tip loads as Euler loads over
 /// 10 mm; measured moduli of 0.035 in wires (Harrison 2011, J Endovasc Ther 18:797).
-const PRESETS: [Numbers; 8] = [
+const PRESETS: [Numbers; 9] = [
     // 0.06 mm of steel at the tip; a shaft of nitinol of 0.356 mm. The tip is bent by 45 degrees 3 mm from its end, for a
     // main stem of 4 mm.
     ("floppy", 0.356, [0.05, 38.0], [30.0, 300.0], 5.0, 45.0, 3.0),
@@ -68,6 +68,8 @@ const PRESETS: [Numbers; 8] = [
     // shaped on the test vessels (45 degrees and 6 mm were too short for their wide forks), so how it does there proves
     // little for others.
     ("035-angled", 0.889, [1.0, 291.0], [30.0, 150.0], 12.0, 60.0, 8.0),
+    // The same with a longer end, which reaches 16 mm aside: for gentle forks of lumens up to 26 mm wide.
+    ("035-angled-20", 0.889, [1.0, 291.0], [30.0, 150.0], 20.0, 60.0, 16.0),
     // The same with the curve of a shaped catheter, which reaches 23 mm aside: for forks that are too wide for a wire's own bend.
     // It was shaped on two surfaces, steve_vessel_architecture and SimVascular's aorta.
     ("035-curve", 0.889, [1.0, 291.0], [30.0, 150.0], 28.0, 90.0, 14.0),
@@ -167,6 +169,7 @@ impl Wire {
     /// The name of the wire for coronary arteries, and of that for wide vessels with forks.
     pub(super) const USUAL: &str = "workhorse";
     pub(super) const LONG_BEND: &str = "035-angled";
+    pub(super) const LONG_TIP: &str = "035-angled-20";
     pub(super) const CURVE: &str = "035-curve";
 
     /// One of the presets.
