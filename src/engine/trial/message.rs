@@ -320,7 +320,6 @@ fn sentence(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::transfer::sent;
-    use lumen_message::Message as _;
 
     use crate::trial::autopilot::AutopilotTask;
     use crate::trial::frame::Progress;
