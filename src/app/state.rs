@@ -25,6 +25,7 @@ use crate::pipeline::report::AutoReport;
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::{Boundary, Keep, Settings, Target};
 use crate::prepare::Patch;
+use crate::prepare::cuts::Cut;
 use crate::prepare::prepare::Plan;
 use crate::sharing::measures::Measure;
 
@@ -140,6 +141,7 @@ struct Before {
     document: Option<Document>,
     keep: Keep,
     measures: Arc<Vec<Measure>>,
+    cuts: Vec<Cut>,
     history: History<Step>,
 }
 
@@ -321,7 +323,7 @@ impl State {
         if matches!(self.engine, Engine::Empty | Engine::Stopped) && self.opening.is_empty() {
             // It is left alone until the hand is done with something that it is needed for.
             let is_wished = self.shows_averaged && self.engine == Engine::Stopped;
-            let is_asked = self.comparison.is_waiting() || self.next_question().is_some();
+            let is_asked = self.comparison.is_waiting() || self.next_question().is_some() || self.wants_cuts();
             let is_needed = self.settings != self.sent || is_asked || is_wished;
             if is_held || !is_needed {
                 return;
@@ -366,15 +368,19 @@ impl State {
         made.map(|made| made.ready.patches.clone()).unwrap_or_default()
     }
 
+    /// Whether the engine is to say where the ends of the level are cut.
+    fn wants_cuts(&self) -> bool {
+        let document = self.document.as_ref().filter(|document| document.shown.is_some());
+        document.is_some_and(|document| self.preparation.wants_cuts(level(document.revision)))
+    }
+
     /// Asks where the ends of the level are cut, where that is shown and is not known.
     fn plan_cuts(&mut self, link: &mut dyn Link) {
-        let Some(document) = self.document.as_ref().filter(|document| document.shown.is_some()) else { return };
-        if !self.preparation.ask_cuts(self.number + 1, level(document.revision)) {
-            return;
-        }
-        let Some(mesh) = document.shown_mesh() else { return };
+        let Some(document) = self.document.as_ref().filter(|_| self.wants_cuts()) else { return };
+        let (Some(mesh), of) = (document.shown_mesh(), level(document.revision)) else { return };
         self.number += 1;
         let (id, plan) = (self.number, self.preparation.plan.clone());
+        self.preparation.ask_cuts(id, of);
         link.send(Command::PlanCuts { id, mesh: Arc::new(mesh), plan });
     }
 
@@ -414,6 +420,10 @@ impl State {
             Some((Work::Preparing, _)) if !self.preparation.is_worked_on() => None,
             Some((Work::Beside, _)) if !self.against.is_busy() => None,
             None if self.preparation.is_worked_on() => Some((Work::Preparing, 0.0)),
+            // What is asked for goes before numbers that nobody waits for.
+            Some((work, _)) if work.adds_to_what_is_shown() && self.preparation.is_worked_on() => {
+                Some((Work::Preparing, 0.0))
+            }
             None if self.against.is_busy() => Some((Work::Beside, 0.0)),
             None if self.comparison.is_busy() => Some((Work::Comparing, 0.0)),
             work => work,

@@ -1,8 +1,8 @@
 //! Where each end of a surface is cut, by what is asked of all ends and of single ones, and what goes.
 
 use glam::DVec3;
-use lumen_mesh::TriMesh;
 use lumen_mesh::task::Yielder;
+use lumen_mesh::{TriMesh, components};
 use lumen_vessel::Place;
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ use super::notes::{Note, PrepareError, Reason};
 use super::prepare::{Plan, vessel};
 
 /// A place is that of an end at most so many of its radii away.
-const NEAR: f64 = 8.0;
+pub const NEAR: f64 = 8.0;
 
 /// Where vessels are cut.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,8 +39,8 @@ pub struct Cut {
 pub struct PlannedEnd {
     /// The centreline from the end inwards, as far as a plane may stand: places in mm, with radii.
     pub way: Vec<Place>,
-    /// The place in [`Plan::cuts`] of what is asked of this end by itself.
-    pub cut: Option<usize>,
+    /// Whether it is to be cut.
+    pub is_asked: bool,
     /// The plane; `None` where none is asked for, or none can be.
     pub plane: Option<EndPlane>,
     /// Why it cannot be cut as asked.
@@ -65,13 +65,14 @@ pub struct Cuts {
     pub mesh: TriMesh,
     /// The ends.
     pub ends: Vec<PlannedEnd>,
-    /// For each triangle of `mesh` 0 where some of it stays, or 1 more than the place of the end with which it goes.
+    /// For each triangle of `mesh` 0 where some of it stays, or 1 more than the place of the end whose plane cuts it off.
     pub of_triangle: Vec<u32>,
     /// What cannot be cut as asked.
     pub notes: Vec<Note>,
 }
 
-/// What [`prepare`](super::prepare::prepare) would cut off by `plan`, but for what it uncrosses before.
+/// What [`prepare`](super::prepare::prepare) would cut off by `plan`, but for what it uncrosses before, and uneven rims that
+/// it trims after.
 ///
 /// # Errors
 /// [`PrepareError`], as there. A single end that cannot be cut is a [`Note`].
@@ -79,7 +80,7 @@ pub async fn cuts(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<Cuts
     plan.check()?;
     check_surface(mesh)?;
     let mut notes = Vec::new();
-    let mesh = vessel(mesh, plan, &mut notes, &yielder.part(0.0..0.1)).await?;
+    let mesh = vessel(mesh, true, &mut notes, &yielder.part(0.0..0.1)).await?;
     yielder.rest(0.1).await;
     let (mut ends, strays) = planned(&mesh, plan, &yielder.part(0.1..0.9)).await?;
     notes.extend(strays);
@@ -96,17 +97,33 @@ pub async fn cuts(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<Cuts
             (_, note) => notes.push(note),
         }
     }
-    let mut of_triangle = vec![u32::MAX; mesh.triangles.len()];
-    from.iter().for_each(|&t| of_triangle[t as usize] = 0);
-    for (t, of) in of_triangle.iter_mut().enumerate().filter(|(_, of)| **of == u32::MAX) {
-        let [a, b, c] = mesh.corners(t);
-        let middle = ((a + b + c) / 3.0).as_dvec3();
-        let cut = ends.iter().enumerate().filter(|(_, end)| end.plane.is_some());
-        let nearest = cut.map(|(i, end)| (end.tip().distance_squared(middle), i));
-        let nearest = nearest.reduce(|least, next| if next.0 < least.0 { next } else { least });
-        *of = nearest.map_or(0, |(_, i)| i as u32 + 1);
-    }
+    let of_triangle = cut_off_by(&mesh, &from, &ends);
     Ok(Cuts { mesh, ends, of_triangle, notes })
+}
+
+/// For each triangle 0 where it is among those that stay, or 1 more than the place of the end whose plane cuts it off: each
+/// piece of what goes is that of the end whose tip is nearest to it.
+fn cut_off_by(mesh: &TriMesh, stay: &[u32], ends: &[PlannedEnd]) -> Vec<u32> {
+    let mut goes = vec![true; mesh.triangles.len()];
+    stay.iter().for_each(|&t| goes[t as usize] = false);
+    let gone: Vec<usize> = (0..goes.len()).filter(|&t| goes[t]).collect();
+    let triangles: Vec<[u32; 3]> = gone.iter().map(|&t| mesh.triangles[t]).collect();
+    let pieces = components(mesh.positions.len(), &triangles);
+    // For each piece the nearest tip, by its squared distance, and its end.
+    let mut nearest = vec![(f64::INFINITY, 0); pieces.count()];
+    for (triangle, &piece) in triangles.iter().zip(&pieces.of_triangle) {
+        for (i, end) in ends.iter().enumerate().filter(|(_, end)| end.plane.is_some()) {
+            let far = triangle.map(|v| end.tip().distance_squared(mesh.positions[v as usize].as_dvec3()));
+            let far = far.into_iter().fold(f64::INFINITY, f64::min);
+            let nearest = &mut nearest[piece as usize];
+            if far < nearest.0 {
+                *nearest = (far, i as u32 + 1);
+            }
+        }
+    }
+    let mut of_triangle = vec![0; mesh.triangles.len()];
+    gone.iter().zip(&pieces.of_triangle).for_each(|(&t, &piece)| of_triangle[t] = nearest[piece as usize].1);
+    of_triangle
 }
 
 /// The ends of a surface with their planes, and a note on each place of `plan` that is that of none.
@@ -134,8 +151,8 @@ pub(crate) async fn planned(
     }
     let mut ends = Vec::with_capacity(free.len());
     for (i, ((branch, at_end), way)) in free.into_iter().zip(ways).enumerate() {
-        let cut: Option<usize> = cut_of[i];
-        let found = match cut.map_or(plan.clip, |cut| plan.cuts[cut].at) {
+        let at = cut_of[i].map_or(plan.clip, |cut: usize| plan.cuts[cut].at);
+        let found = match at {
             None => None,
             Some(ClipAt::Round) => Some(planes.round(branch, at_end)),
             Some(ClipAt::Distance(distance)) => Some(planes.at(branch, at_end, distance)),
@@ -144,7 +161,7 @@ pub(crate) async fn planned(
             Ok(plane) => (plane, None),
             Err(error) => (None, Some(Reason::from(&error))),
         };
-        ends.push(PlannedEnd { way, cut, plane, why });
+        ends.push(PlannedEnd { way, is_asked: at.is_some(), plane, why });
         yielder.rest(0.9 + 0.1 * i as f32 / cut_of.len() as f32).await;
     }
     Ok((ends, strays))
@@ -239,7 +256,7 @@ mod tests {
             for (further, is_cut) in [(-0.01, true), (0.5, false)] {
                 let cut = Cut { end_mm: end.tip().to_array(), at: mm(length + further) };
                 let alone = planned_by(&mesh, None, vec![cut]);
-                let end = alone.ends.iter().find(|end| end.cut == Some(0)).unwrap();
+                let end = alone.ends.iter().find(|end| end.is_asked).unwrap();
                 assert_eq!(end.plane.is_some(), is_cut, "{length} {further}: {:?}", end.why);
             }
         }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cap::{CapKind, cap};
 use super::check::{Fate, check};
-use super::cuts::{ClipAt, Cut, cut_at, planned};
+use super::cuts::{ClipAt, Cut, PlannedEnd, cut_at, planned};
 use super::ends::{EndPlane, Length, OpenEnd, check_surface, names, open_ends, planes_of_uneven_openings, unfold};
 use super::extend::{ExtendError, Extended, extend};
 use super::notes::{Note, PrepareError, Reason};
@@ -104,7 +104,7 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     plan.check()?;
     check_surface(mesh)?;
     let mut notes = Vec::new();
-    let mesh = vessel(mesh, plan, &mut notes, &yielder.part(0.0..0.05)).await?;
+    let mesh = vessel(mesh, plan.is_of_vessels(), &mut notes, &yielder.part(0.0..0.05)).await?;
     yielder.rest(0.05).await;
     let (mut mesh, crossing) = if plan.uncross {
         let part = yielder.part(0.05..0.3);
@@ -163,16 +163,16 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     Ok(Prepared { surface, fate, notes, crossing, remeshed })
 }
 
-/// What of a surface is prepared by `plan`: its largest piece, of a wall the lumen.
+/// What of a surface is prepared: its largest piece, of a wall the lumen where it `is_of_vessels`.
 pub(crate) async fn vessel(
     mesh: &TriMesh,
-    plan: &Plan,
+    is_of_vessels: bool,
     notes: &mut Vec<Note>,
     yielder: &Yielder,
 ) -> Result<TriMesh, PrepareError> {
     // Edges of more than two triangles are no place to part surfaces at, and no mesher takes them.
     let mut mesh = split(mesh).mesh;
-    if plan.is_of_vessels() {
+    if is_of_vessels {
         mesh = without_wall(mesh, notes, yielder).await?;
     }
     let (mesh, others) = largest_piece(mesh);
@@ -208,11 +208,15 @@ async fn clipped(
     let (ends, strays) = planned(&mesh, plan, &yielder.part(0.0..0.8)).await?;
     notes.extend(strays);
     notes.extend(ends.iter().filter_map(|end| Some(end.not_cut(end.why.clone()?))));
-    let planes: Vec<EndPlane> = ends.into_iter().filter_map(|end| end.plane).collect();
+    let planes: Vec<EndPlane> = ends.iter().filter_map(|end| end.plane.clone()).collect();
     let (mesh, _) = cut_at(mesh, &planes, notes);
     // An end that is too near a fork for such a plane is cut just inside of its rim, where that is uneven.
-    let leaves = plan.cuts.iter().any(|cut| cut.at.is_none()) || plan.clip.is_none();
-    let planes = if leaves { Vec::new() } else { planes_of_uneven_openings(&mesh)? };
+    let is_asked = |plane: &EndPlane| {
+        let far = |end: &&PlannedEnd| end.tip().distance_squared(plane.centre);
+        ends.iter().min_by(|a, b| far(a).total_cmp(&far(b))).is_none_or(|end| end.is_asked)
+    };
+    let mut planes = planes_of_uneven_openings(&mesh)?;
+    planes.retain(is_asked);
     Ok(cut_at(mesh, &planes, notes).0)
 }
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 use web_time::Instant;
 
 use super::placement::{PlacementError, rotation};
-use super::proposal::{proposed, proposed_entry, reached, suiting};
+use super::proposal::{proposed, proposed_entry, reached, suiting, with_room};
 use super::reach::{ReachFinding, finding, rank};
 use super::route::{Fork, PlaceName, Proposals as _, Route, RouteError, Routes as _, phantom_task};
 use super::setup::{Entry, Setup};
@@ -140,7 +140,7 @@ impl Course {
             wires.truncate(NEXT_WIRES);
             setup.next_wires.clone_from(&wires);
         }
-        let reach = finding(&forks, &setup.wire, &wires);
+        let reach = finding(&forks, &setup.wire, &with_room(&route, Wire::names()));
         if entry.direction == [0.0; 3] {
             let direction = route.at(0.0).direction.as_vec3().to_array();
             setup.entry = Some(Entry { direction, ..entry });

@@ -43,8 +43,12 @@ pub(super) fn suiting(route: &Route, first: &Wire) -> Vec<Wire> {
     } else {
         &[Wire::USUAL, Wire::LONG_BEND, "workhorse-j"]
     };
-    let wires = names.iter().map(|name| Wire::named(name));
-    wires.filter(|wire| route.clearance(ROOM * wire.diameter_mm).is_ok()).collect()
+    with_room(route, names.iter().copied())
+}
+
+/// Those wires of these names for which there is room along a route.
+pub(super) fn with_room(route: &Route, names: impl Iterator<Item = &'static str>) -> Vec<Wire> {
+    names.map(Wire::named).filter(|wire| route.clearance(ROOM * wire.diameter_mm).is_ok()).collect()
 }
 
 /// The best target that a wire can reach.

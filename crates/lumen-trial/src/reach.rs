@@ -104,7 +104,7 @@ messages! {
             reach: f64 [1],
         } => "This wire is not expected to get into the branch at the fork {along:.0} mm along the route, which turns by \
               {turn:.0}° out of a lumen {width:.1} mm wide: that takes a tip that reaches {takes:.1} mm aside, and this one \
-              reaches {reach:.1} mm. The wire that is proposed reaches in.",
+              reaches {reach:.1} mm. The tip of another wire does.",
     }
 }
 
@@ -205,6 +205,9 @@ mod tests {
         trial.finish();
         let summary = trial.summary();
         assert!(summary.success && summary.failed_wires.is_empty(), "{}", summary.reason);
+        // Beside a thin wire thick ones count, too.
+        let (_, reach) = steered(Setup { wire: Wire::named(Wire::USUAL), ..open.clone() });
+        assert!(matches!(reach, Some(ReachFinding::Another { .. })), "{reach:?}");
         let (mut trial, reach) = steered(Setup { wire: Wire::named(Wire::LONG_BEND), ..open });
         assert!(matches!(reach, Some(ReachFinding::Another { .. })), "{reach:?}");
         (0..2 * summary.steps).for_each(|_| trial.step());

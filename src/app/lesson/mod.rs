@@ -182,7 +182,7 @@ impl Lessons {
         self.waiting.clear();
         self.waiting.extend(view.map(Ask::View));
         let is_made = now.state.preparation.shown == Some(solver::Shown::Made);
-        if is_made && !shows(Show::Solver) {
+        if now.state.preparation.shown.is_some() && !shows(Show::Solver) {
             asked.push(Ask::Solver(solver::Action::Show(None)));
         } else if !is_made && shows(Show::Solver) {
             asked.push(Ask::Solver(solver::Action::Set(Plan::flow())));

@@ -14,7 +14,7 @@ use crate::app::theme;
 use crate::engine::CutEnd;
 use crate::language::tell;
 use crate::mesh::Vec3;
-use crate::prepare::cuts::{ClipAt, Cut};
+use crate::prepare::cuts::{ClipAt, Cut, NEAR};
 use crate::prepare::ends::Length;
 use crate::prepare::prepare::Plan;
 use crate::render::Camera;
@@ -33,6 +33,11 @@ impl CutEnd {
     /// The end of its centreline, in mm.
     fn tip(&self) -> Vec3 {
         self.at(0.0).0
+    }
+
+    /// The radius of the vessel there, in mm.
+    fn radius_mm(&self) -> f32 {
+        self.at(0.0).1
     }
 
     /// How far from the end a plane may stand, in mm.
@@ -70,42 +75,57 @@ fn place([x, y, z, _]: [f32; 4]) -> Vec3 {
     Vec3::new(x, y, z)
 }
 
-/// The place in the plan's cuts of what is asked of an end by itself.
-fn own(plan: &Plan, ends: &[CutEnd], end: usize) -> Option<usize> {
-    let nearest = |cut: &Cut| {
+/// For each end the place in the plan's cuts of what is asked of it by itself, as the engine finds it.
+fn own(plan: &Plan, ends: &[CutEnd]) -> Vec<Option<usize>> {
+    let mut own = vec![None; ends.len()];
+    for (number, cut) in plan.cuts.iter().enumerate() {
         let to = Vec3::from_array(cut.end_mm.map(|x| x as f32));
-        (0..ends.len()).min_by(|&a, &b| ends[a].tip().distance(to).total_cmp(&ends[b].tip().distance(to)))
-    };
-    plan.cuts.iter().rposition(|cut| nearest(cut) == Some(end))
+        let far = |end: &CutEnd| end.tip().distance(to);
+        let nearest = (0..ends.len()).min_by(|&a, &b| far(&ends[a]).total_cmp(&far(&ends[b])));
+        if let Some(end) = nearest.filter(|&end| f64::from(far(&ends[end])) <= NEAR * f64::from(ends[end].radius_mm()))
+        {
+            own[end] = Some(number);
+        }
+    }
+    own
 }
 
-/// How far from an end it is cut by the plan, in mm; `None` where it is left, or cannot be cut.
-fn distance(plan: &Plan, ends: &[CutEnd], end: usize) -> Option<f32> {
-    let found = ends[end].plane.map(|plane| plane.arc_mm as f32);
-    match own(plan, ends, end).map_or(plan.clip, |cut| plan.cuts[cut].at)? {
-        ClipAt::Distance(Length::Mm(mm)) => Some(mm as f32),
-        ClipAt::Distance(Length::Radii(_)) | ClipAt::Round => found,
+/// Where an end is asked to be cut.
+fn asked_of(plan: &Plan, own: Option<usize>) -> Option<ClipAt> {
+    own.map_or(plan.clip, |cut| plan.cuts[cut].at)
+}
+
+/// How far from an end that is, in mm. Where no place is round, or none is found yet, it is a radius.
+fn distance(end: &CutEnd, at: ClipAt) -> f32 {
+    match (at, end.plane) {
+        (ClipAt::Distance(Length::Mm(mm)), _) => mm as f32,
+        (ClipAt::Distance(Length::Radii(radii)), _) => radii as f32 * end.radius_mm(),
+        (ClipAt::Round, Some(plane)) => plane.arc_mm as f32,
+        (ClipAt::Round, None) => end.radius_mm().min(end.room_mm()),
     }
 }
 
-/// The plan with another place for one end.
-fn with(plan: &Plan, ends: &[CutEnd], end: usize, at: Option<ClipAt>) -> Plan {
+/// The plan with another place for one end, whose cut in it is `own`.
+fn with(plan: &Plan, end: &CutEnd, own: Option<usize>, at: Option<ClipAt>) -> Plan {
     let mut plan = plan.clone();
-    match own(&plan, ends, end) {
-        Some(cut) => plan.cuts[cut].at = at,
-        None => plan.cuts.push(Cut { end_mm: ends[end].tip().to_array().map(f64::from), at }),
+    let cut = Cut { end_mm: end.tip().to_array().map(f64::from), at };
+    match own {
+        Some(number) => plan.cuts[number] = cut,
+        None => plan.cuts.push(cut),
     }
     plan
 }
 
-fn in_mm(mm: f32) -> Option<ClipAt> {
-    // To a hundredth: what is written in a settings file is what stands in the field.
-    Some(ClipAt::Distance(Length::Mm((f64::from(mm) * 100.0).round() / 100.0)))
+/// So far from an end, to a hundredth of a mm, as it stands in the field; no farther than there is room.
+fn in_mm(end: &CutEnd, mm: f32) -> Option<ClipAt> {
+    let room = ((f64::from(end.room_mm()) - 1e-3) * 100.0).floor().max(0.0) / 100.0;
+    Some(ClipAt::Distance(Length::Mm(((f64::from(mm) * 100.0).round() / 100.0).min(room))))
 }
 
 /// A row for each end.
 pub(super) fn list(ui: &mut Ui, preparation: &Preparation, planned: &Planned, asked: &mut Vec<Ask>) {
     let (plan, ends) = (&preparation.plan, planned.found.ends.as_slice());
+    let own = own(plan, ends);
     ui.separator();
     remark(ui, &say!("solver-cuts-help"));
     let mut changed = None;
@@ -114,24 +134,24 @@ pub(super) fn list(ui: &mut Ui, preparation: &Preparation, planned: &Planned, as
         for (i, end) in ends.iter().enumerate() {
             let (swatch, _) = ui.allocate_exact_size(vec2(10.0, 10.0), Sense::hover());
             ui.painter().rect_filled(swatch, 2.0, end_colour(i));
-            let now = distance(plan, ends, i);
-            let mut is_cut = now.is_some();
+            let at = asked_of(plan, own[i]);
+            let mut is_cut = at.is_some();
             if ui.add(Checkbox::new(&mut is_cut, say!("solver-cut-end", number = i + 1))).changed() {
-                let at = if plan.clip.is_none() || now.is_some() { Some(ClipAt::Round) } else { plan.clip };
-                changed = Some(with(plan, ends, i, at.filter(|_| is_cut)));
+                let at = is_cut.then_some(plan.clip.unwrap_or(ClipAt::Round));
+                changed = Some(with(plan, end, own[i], at));
             }
-            let mut mm = now.unwrap_or_default();
+            let mut mm = at.map_or(0.0, |at| distance(end, at));
             let field = DragValue::new(&mut mm).range(0.0..=end.room_mm()).speed(0.05).max_decimals(2).suffix(" mm");
             let field = ui.add_enabled(is_cut, reads_comma(field, false));
             name(&field, Role::SpinButton, &say!("solver-cut-distance", number = i + 1));
             if field.changed() {
-                changed = Some(with(plan, ends, i, in_mm(mm)));
+                changed = Some(with(plan, end, own[i], in_mm(end, mm)));
             }
             let go = ui.small_button(say!("solver-go"));
             let label = say!("solver-cut-end", number = i + 1);
             name(&go, Role::Button, &say!("solver-go-to", what = label.clone()));
             if go.clicked() {
-                let (at, radius) = end.at(now.unwrap_or_default());
+                let (at, radius) = end.at(mm);
                 asked.push(Ask::GoTo { at_mm: at.to_array(), height_mm: AROUND * radius, label });
             }
             ui.end_row();
@@ -157,10 +177,10 @@ pub(super) fn rings(
     planned: &Planned,
 ) -> Option<Action> {
     let (plan, ends) = (&preparation.plan, planned.found.ends.as_slice());
-    let canvas = Canvas::new(ui, rect, rect, camera);
+    let (canvas, own) = (Canvas::new(ui, rect, rect, camera), own(plan, ends));
     let mut asked = None;
     for (i, end) in ends.iter().enumerate() {
-        let Some(mm) = distance(plan, ends, i) else {
+        let Some(mm) = asked_of(plan, own[i]).map(|at| distance(end, at)) else {
             // Which it is, is seen all the same.
             canvas.dot(end.tip(), end_colour(i));
             canvas.label(end.tip(), &(i + 1).to_string(), ui.visuals().text_color());
@@ -184,7 +204,7 @@ pub(super) fn rings(
         canvas.painter.circle(at, size, colour, egui::Stroke::new(1.5, Color32::WHITE));
         canvas.label(middle, &(i + 1).to_string(), ui.visuals().text_color());
         if let Some(hand) = handle.interact_pointer_pos().filter(|_| handle.dragged()) {
-            asked = nearest_mm(&canvas, end, hand).map(|mm| Action::Set(with(plan, ends, i, in_mm(mm))));
+            asked = nearest_mm(&canvas, end, hand).map(|mm| Action::Set(with(plan, end, own[i], in_mm(end, mm))));
         }
     }
     asked
@@ -234,16 +254,36 @@ mod tests {
         assert_eq!(ends[1].plane_at(5.5), (Vec3::Z * 34.5, Vec3::Z, 2.0));
     }
 
+    fn distances(plan: &Plan, ends: &[CutEnd]) -> Vec<Option<f32>> {
+        let own = own(plan, ends);
+        ends.iter().zip(own).map(|(end, own)| asked_of(plan, own).map(|at| distance(end, at))).collect()
+    }
+
     #[test]
     fn what_is_asked_of_an_end_takes_the_place_of_what_was_and_leaves_the_others() {
         let ends = ends();
+        let set = |plan: &Plan, end: usize, at| with(plan, &ends[end], own(plan, &ends)[end], at);
         let plan = Plan::flow();
-        assert_eq!([0, 1].map(|end| distance(&plan, &ends, end)), [Some(3.0), None]);
-        let plan = with(&plan, &ends, 1, in_mm(4.567));
-        assert_eq!([0, 1].map(|end| distance(&plan, &ends, end)), [Some(3.0), Some(4.57)]);
-        let plan = with(&plan, &ends, 1, in_mm(5.0));
+        // The other is round nowhere: it can be cut by hand, from a radius on.
+        assert_eq!(distances(&plan, &ends), [Some(3.0), Some(2.0)]);
+        let plan = set(&plan, 1, in_mm(&ends[1], 4.567));
+        assert_eq!(distances(&plan, &ends), [Some(3.0), Some(4.57)]);
+        let plan = set(&plan, 1, in_mm(&ends[1], 5.0));
         assert_eq!(plan.cuts.len(), 1);
-        let plan = with(&plan, &ends, 0, None);
-        assert_eq!([0, 1].map(|end| distance(&plan, &ends, end)), [None, Some(5.0)]);
+        let plan = set(&plan, 0, None);
+        assert_eq!(distances(&plan, &ends), [None, Some(5.0)]);
+        // A place that is far from every end is that of none.
+        let stray = Cut { end_mm: [30.0, 0.0, 0.0], at: None };
+        assert_eq!(distances(&Plan { cuts: vec![stray], ..Plan::flow() }, &ends), [Some(3.0), Some(2.0)]);
+    }
+
+    #[test]
+    fn what_is_dragged_all_the_way_in_is_no_farther_than_there_is_room() {
+        let mut ends = ends();
+        for length in [12.346_f32, 12.344, 0.004] {
+            ends[0].way = vec![[0.0, 0.0, 0.0, 2.0], [0.0, 0.0, length, 2.0]];
+            let Some(ClipAt::Distance(Length::Mm(mm))) = in_mm(&ends[0], length) else { panic!("a distance") };
+            assert!((0.0..f64::from(length)).contains(&mm) && f64::from(length) - mm < 0.012, "{mm} of {length}");
+        }
     }
 }

@@ -58,6 +58,7 @@ impl Panel for SolverView {
                 state.leave_modes();
                 let is_there = shown != Some(Shown::Made) || state.preparation.made.is_some();
                 state.preparation.shown = shown.filter(|_| is_there);
+                state.preparation.failure.take_if(|_| shown == Some(Shown::Cuts));
             }
             Action::Rename(place, name) => state.preparation.rename(place, &name),
             Action::Save(format) => state.save_for_solver(format, acting.platform.link()),

@@ -107,16 +107,20 @@ impl Preparation {
         (self.asked, self.asked_cuts, self.failure) = (Some((id, of)), None, None);
     }
 
-    /// Notes that the cuts of this level are asked for under this number, where they are to be shown and are not known.
-    /// What the engine works on is awaited first. Whether they are asked for.
-    pub(in crate::app) fn ask_cuts(&mut self, id: u64, level: Level) -> bool {
-        let of = CutsOf { level, clip: self.plan.clip, cuts: self.plan.cuts.clone() };
-        let is_known = self.planned.as_ref().is_some_and(|planned| planned.of == of);
-        let is_wanted = self.shown == Some(Shown::Cuts) && !self.is_worked_on() && !is_known;
-        if is_wanted {
-            (self.asked_cuts, self.failure) = (Some((id, of)), None);
-        }
-        is_wanted
+    /// Whether the cuts of this level are to be asked for: they are to be shown and are not known. What the engine works on
+    /// is awaited first.
+    pub(in crate::app) fn wants_cuts(&self, level: Level) -> bool {
+        let is_known = || self.planned.as_ref().is_some_and(|planned| planned.of == self.cuts_of(level));
+        self.shown == Some(Shown::Cuts) && !self.is_worked_on() && !is_known()
+    }
+
+    /// Notes that the cuts of this level are asked for under this number.
+    pub(in crate::app) fn ask_cuts(&mut self, id: u64, level: Level) {
+        self.asked_cuts = Some((id, self.cuts_of(level)));
+    }
+
+    fn cuts_of(&self, level: Level) -> CutsOf {
+        CutsOf { level, clip: self.plan.clip, cuts: self.plan.cuts.clone() }
     }
 
     /// Waits for nothing more. Whether it did.
@@ -128,10 +132,9 @@ impl Preparation {
         self.asked.take().is_some()
     }
 
-    /// Forgets all but the plan, without the cuts of single ends: another surface is open.
+    /// Forgets all but the plan: another surface is open.
     pub(in crate::app) fn leave_surface(&mut self) {
-        let plan = Plan { cuts: Vec::new(), ..std::mem::take(&mut self.plan) };
-        *self = Self { plan, ..Self::default() };
+        *self = Self { plan: std::mem::take(&mut self.plan), ..Self::default() };
     }
 
     /// Hears where the ends are cut. An answer to what is no longer asked for is passed over.
@@ -142,7 +145,10 @@ impl Preparation {
                 let (mesh, ends) = drawn(&found.mesh, &found.of_triangle, found.ends.len() + 1);
                 self.planned = Some(Planned { of, found, mesh: Arc::new(mesh), ends: Arc::new(ends) });
             }
-            Err(error) => (self.failure, self.shown) = (Some(error), None),
+            Err(error) => {
+                self.failure = Some(error);
+                self.shown.take_if(|shown| *shown == Shown::Cuts);
+            }
         }
     }
 

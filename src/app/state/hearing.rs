@@ -27,6 +27,7 @@ impl State {
                         self.engine = Engine::Empty;
                         self.is_cancelling = false;
                         self.comparison.stop(&say!("app-not-opened-again"));
+                        self.preparation.give_up();
                     }
                     let why = sentence(&message);
                     let text = match self.document {
@@ -146,6 +147,7 @@ impl State {
                 self.work = None;
                 self.comparison.forget_request();
                 self.against.forget_request();
+                self.preparation.give_up();
                 self.warn(&sentence(&message));
             }
         }

@@ -98,7 +98,11 @@ impl State {
         // Of two that follow each other the one that had a level can be gone back to.
         if self.before.is_none() {
             let (measures, history) = (self.measures.clone(), self.history.clone());
-            self.before = Some(Box::new(Before { document: before, keep, measures, history }));
+            let cuts = self.preparation.plan.cuts.clone();
+            self.before = Some(Box::new(Before { document: before, keep, measures, cuts, history }));
+        }
+        if !is_same {
+            self.preparation.plan.cuts.clear();
         }
         // Pieces are numbered in one surface only.
         self.settings.keep = Keep::Largest;
@@ -110,6 +114,7 @@ impl State {
             // Read in another unit it is another step; another file has its own.
             if !is_same {
                 step.unit = unit;
+                step.plan.cuts.clear();
             }
         });
         self.is_stopped = false;
@@ -126,7 +131,8 @@ impl State {
 
     /// Gives up the surface that has no level yet: what was open before it is again. Says what to tell the others.
     pub(super) fn go_back(&mut self) -> Option<Effect> {
-        let Before { document, keep, measures, history } = *self.before.take()?;
+        let Before { document, keep, measures, cuts, history } = *self.before.take()?;
+        self.preparation.plan.cuts = cuts;
         (self.document, self.settings.keep, self.measures, self.history) = (document, keep, measures, history);
         Some(Effect::Opened)
     }

@@ -7,12 +7,14 @@ use std::time::Duration;
 
 use super::{Effect, State};
 use crate::app::notices::Kind;
+use crate::app::solver::Shown;
 use crate::engine::{Command, Engine, Event, Link, Source, Work};
 use crate::io::{Format, Unit};
 use crate::phantom::{self, Sample};
 use crate::pipeline::pinch::Pinch;
 use crate::pipeline::settings::{Keep, Target};
 use crate::pipeline::stage::Stage;
+use crate::prepare::cuts::Cut;
 
 /// A line on which commands lie until the next slice.
 #[derive(Default)]
@@ -536,4 +538,48 @@ fn a_level_is_looked_up_once_while_a_file_is_read() {
     assert_eq!(state.document.as_ref().unwrap().lookups, before + 2);
     settle(&mut state, &mut line);
     agrees(&state);
+}
+
+#[test]
+fn cuts_go_with_their_surface_and_come_back_with_it() {
+    let (mut state, mut line) = start();
+    let cuts = vec![Cut { end_mm: [1.0, 2.0, 3.0], at: None }];
+    state.preparation.plan.cuts.clone_from(&cuts);
+    state.follow(false, &mut line);
+    state.open_file("b.stl".into(), stl(60_000), &mut line);
+    until_opened(&mut state, &mut line, "b.stl");
+    assert!(state.preparation.plan.cuts.is_empty());
+    state.cancel(&mut line);
+    settle(&mut state, &mut line);
+    assert_eq!((&*state.document.as_ref().unwrap().name, &state.preparation.plan.cuts), ("z.stl", &cuts));
+    // The same file in another unit has them still, another file has none, and none is to be had back there.
+    state.set_unit(Some(Unit::Centimetre), &mut line);
+    settle(&mut state, &mut line);
+    assert_eq!(state.preparation.plan.cuts, cuts);
+    state.open_file("c.stl".into(), stl(10_000), &mut line);
+    settle(&mut state, &mut line);
+    for _ in 0..3 {
+        assert!(state.preparation.plan.cuts.is_empty());
+        state.undo(&mut line);
+        settle(&mut state, &mut line);
+    }
+}
+
+#[test]
+fn cuts_are_asked_for_again_where_an_engine_gave_up_and_of_one_that_has_stopped() {
+    let (mut state, mut line) = start();
+    state.preparation.shown = Some(Shown::Cuts);
+    state.follow(false, &mut line);
+    // Whatever else goes on, they are awaited: Escape gives them up.
+    state.work = Some((Work::Stage(Stage::Measures), 0.5));
+    state.follow(false, &mut line);
+    assert!(state.awaits());
+    state.receive(Event::Failed { message: "no more".to_owned() });
+    settle(&mut state, &mut line);
+    assert!(state.preparation.shown.is_none() && state.preparation.planned.is_none() && !state.is_busy());
+    state.engine = super::Engine::Stopped;
+    state.preparation.shown = Some(Shown::Cuts);
+    state.follow(false, &mut line);
+    settle(&mut state, &mut line);
+    assert!(state.preparation.planned.is_some() && !state.is_busy());
 }

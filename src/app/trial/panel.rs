@@ -92,7 +92,8 @@ fn open(ui: &mut Ui, trial: &Trial, shown: &Open, asked: &mut Vec<Action>) {
     ui.separator();
     let mut setup = trial.setup.clone();
     ui.push_id("wire", |ui| setup::wire(ui, &mut setup, trial.proposed_wire()));
-    if let Some(reach) = trial.session().and_then(|session| session.ready.reach.as_ref()) {
+    let session = trial.session().filter(|_| !trial.has_changed());
+    if let Some(reach) = session.and_then(|session| session.ready.reach.as_ref()) {
         warning(ui, &tell(reach));
     }
     ui.push_id("places", |ui| {

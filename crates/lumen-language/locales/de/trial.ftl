@@ -340,7 +340,7 @@ trial-wire-kinetic-friction = Gleitreibung
 ## What a wire's tip does not reach
 
 trial-reach-none = Von keinem Draht ist zu erwarten, dass er in den Ast an der Gabelung nach { $along } mm der Route gelangt; sie biegt um { $turn }° aus einem { $width } mm weiten Lumen ab: Dafür muss eine Spitze { $takes } mm zur Seite reichen, und diese reicht { $reach } mm.
-trial-reach-another = Von diesem Draht ist nicht zu erwarten, dass er in den Ast an der Gabelung nach { $along } mm der Route gelangt; sie biegt um { $turn }° aus einem { $width } mm weiten Lumen ab: Dafür muss eine Spitze { $takes } mm zur Seite reichen, und diese reicht { $reach } mm. Der vorgeschlagene Draht reicht hinein.
+trial-reach-another = Von diesem Draht ist nicht zu erwarten, dass er in den Ast an der Gabelung nach { $along } mm der Route gelangt; sie biegt um { $turn }° aus einem { $width } mm weiten Lumen ab: Dafür muss eine Spitze { $takes } mm zur Seite reichen, und diese reicht { $reach } mm. Die Spitze eines anderen Drahts reicht so weit.
 
 ## Why a log cannot be replayed: clauses as above
 

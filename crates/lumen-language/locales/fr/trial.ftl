@@ -340,7 +340,7 @@ trial-wire-kinetic-friction = frottement cinétique
 ## What a wire's tip does not reach
 
 trial-reach-none = Aucun guide ne devrait entrer dans la branche à la bifurcation à { $along } mm sur le trajet, qui tourne de { $turn }° hors d'une lumière large de { $width } mm : il faut une pointe qui se porte à { $takes } mm de côté, et celle-ci se porte à { $reach } mm.
-trial-reach-another = Ce guide ne devrait pas entrer dans la branche à la bifurcation à { $along } mm sur le trajet, qui tourne de { $turn }° hors d'une lumière large de { $width } mm : il faut une pointe qui se porte à { $takes } mm de côté, et celle-ci se porte à { $reach } mm. Le guide proposé y arrive.
+trial-reach-another = Ce guide ne devrait pas entrer dans la branche à la bifurcation à { $along } mm sur le trajet, qui tourne de { $turn }° hors d'une lumière large de { $width } mm : il faut une pointe qui se porte à { $takes } mm de côté, et celle-ci se porte à { $reach } mm. La pointe d'un autre guide y arrive.
 
 ## Why a log cannot be replayed: clauses as above
 

@@ -41,7 +41,9 @@ fn meeting(polygon: &[DVec2]) -> Vec<usize> {
     let meets = |i: usize, j: usize| {
         let ((a, b), (c, d)) = (edge(i), edge(j));
         let parts = |a: DVec2, b: DVec2, c: DVec2, d: DVec2| (b - a).perp_dot(c - a) * (b - a).perp_dot(d - a) <= 0.0;
-        parts(a, b, c, d) && parts(c, d, a, b)
+        // Of edges on one straight line no signs tell, but where they lie.
+        let are_apart = a.max(b).cmplt(c.min(d)).any() || c.max(d).cmplt(a.min(b)).any();
+        !are_apart && parts(a, b, c, d) && parts(c, d, a, b)
     };
     let pairs = (0..count).flat_map(|i| (i + 2..count).map(move |j| (i, j)));
     let found = pairs.filter(|&(i, j)| (j + 1) % count != i && meets(i, j));
@@ -55,11 +57,27 @@ fn meeting(polygon: &[DVec2]) -> Vec<usize> {
 mod tests {
     use std::f64::consts::PI;
 
+    use lumen_mesh::Vec3;
     use lumen_mesh::shapes::tube;
 
     use super::super::open_ends;
     use super::*;
     use crate::cap::{CapError, CapKind, cap};
+
+    #[test]
+    fn straight_sides_stay_as_they_are() {
+        // A square duct, askew, with four edges a side.
+        let mut mesh = tube(16, 10, 20.0, |_| 2.0);
+        for p in &mut mesh.positions {
+            let square = p.truncate() * (2.0 / p.truncate().abs().max_element());
+            *p = Vec3::new(square.x, 0.8 * square.y - 0.6 * p.z, 0.6 * square.y + 0.8 * p.z);
+        }
+        let before = mesh.clone();
+        let (ends, _) = open_ends(&mesh).unwrap();
+        assert_eq!(ends.len(), 2);
+        unfold(&mut mesh, &ends);
+        assert_eq!(mesh, before);
+    }
 
     #[test]
     fn an_outline_that_crosses_itself_is_unfolded_and_can_be_closed() {

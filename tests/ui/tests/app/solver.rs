@@ -181,6 +181,11 @@ fn a_cut_is_dragged_and_typed_and_undone_and_what_is_made_is_cut_there() {
     open_file(&mut harness, &memory, "other.obj", tube(2.0, 30.0, 0.8));
     settle(&mut harness);
     assert_eq!(preparation(&harness).plan, Plan::flow());
+    for key in [egui::Key::Z, egui::Key::Z, egui::Key::Y] {
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, key);
+        harness.run_steps(4);
+        assert!(preparation(&harness).plan.cuts.is_empty());
+    }
 }
 
 #[test]
@@ -190,6 +195,8 @@ fn cuts_that_are_cancelled_are_left_and_a_level_that_moves_leaves_them() {
     press(&mut harness, Role::Button, "Show the cuts");
     assert!(preparation(&harness).shown == Some(Shown::Cuts));
     harness.key_press(egui::Key::Escape);
+    harness.run_steps(2);
+    assert!(preparation(&harness).shown.is_none());
     memory.borrow_mut().runs = true;
     settle(&mut harness);
     assert!(preparation(&harness).shown.is_none() && preparation(&harness).planned.is_none());
@@ -198,6 +205,13 @@ fn cuts_that_are_cancelled_are_left_and_a_level_that_moves_leaves_them() {
     // The sample has five ends.
     assert_eq!(preparation(&harness).planned.as_ref().unwrap().found.ends.len(), 5);
     press(&mut harness, Role::Button, "Show the level");
+    assert!(harness.query_by_role_and_label(Role::Image, "Shaded view").is_some());
+    press(&mut harness, Role::Button, "Show the cuts");
+    assert!(harness.query_by_role_and_label(Role::Image, "Shaded view").is_none());
+    // Who changes the level looks at the level.
+    crate::controls::press_at(&mut harness, "Reduction", 0.5);
+    harness.run_steps(4);
+    assert!(preparation(&harness).shown.is_none());
     assert!(harness.query_by_role_and_label(Role::Image, "Shaded view").is_some());
 }
 
