@@ -733,7 +733,12 @@ fn claims_and_stray_ends_are_refused() {
     long.splice(at + 4..at + 8, [b'U', b'T', 0, 0, 0xF0, 0xFF, 0xFF, 0xFF]);
     let mut stray = file.clone();
     stray.splice(at..at, [0xFE, 0xFF, 0x0D, 0xE0, 0, 0, 0, 0, 0xFE, 0xFF, 0x00, 0xE0, 8, 0, 0, 0]);
-    for broken in [long, stray] {
+    // The same in a sequence, which ends with it, as far as the reader knows.
+    let mut unfit = file.clone();
+    let (sequence, end) =
+        ([0x08, 0x00, 0x40, 0x11, b'S', b'Q', 0, 0, 0xFF, 0xFF, 0xFF, 0xFF], [0xFE, 0xFF, 0x0D, 0xE0]);
+    unfit.splice(at..at, [&sequence[..], &end, &[0; 4], &[0xFE, 0xFF, 0x00, 0xE0, 8, 0, 0, 0]].concat());
+    for broken in [long, stray, unfit] {
         let _alone = crate::alone();
         let (result, taken) = crate::open_measured(&[("a", broken)]);
         assert!(matches!(result, Err(ScanError::File(_))), "{result:?}");

@@ -455,12 +455,18 @@ fn walk<'a>(
                 items += usize::from(path.len() == 1);
                 open.push(true);
             }
-            LazyDataToken::SequenceEnd | LazyDataToken::ItemEnd => match open.pop() {
-                Some(true) => {}
-                Some(false) => drop(path.pop()),
-                // The reader panics at what follows an end that nothing began.
-                None => return Err(broken()),
-            },
+            end @ (LazyDataToken::SequenceEnd | LazyDataToken::ItemEnd) => {
+                match open.pop() {
+                    Some(true) => {}
+                    Some(false) => drop(path.pop()),
+                    // The reader panics at what follows an end that nothing began.
+                    None => return Err(broken()),
+                }
+                // And at an item after the end of one that stood in no sequence.
+                if open.is_empty() && matches!(end, LazyDataToken::ItemEnd) {
+                    return Err(broken());
+                }
+            }
             LazyDataToken::LazyValue { header, decoder } => {
                 let value = value(bytes, decoder.position(), header.len.0).ok_or_else(cut_short)?;
                 decoder.skip_bytes(header.len.0).map_err(|_| broken())?;
