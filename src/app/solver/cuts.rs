@@ -42,7 +42,8 @@ impl CutEnd {
 
     /// How far from the end a plane may stand, in mm.
     fn room_mm(&self) -> f32 {
-        self.way.windows(2).map(|pair| place(pair[0]).distance(place(pair[1]))).sum()
+        // A sum of nothing is -0, which would be shown so.
+        self.way.windows(2).map(|pair| place(pair[0]).distance(place(pair[1]))).fold(0.0, std::ops::Add::add)
     }
 
     /// The centreline so far from the end, and its radius there, in mm.
@@ -248,6 +249,8 @@ mod tests {
     fn a_plane_stands_square_to_its_way_and_looks_out() {
         let ends = ends();
         assert_eq!(ends[0].room_mm(), 19.0);
+        let fork = CutEnd { way: vec![[0.0, 0.0, 0.0, 2.0]], plane: None, why: None };
+        assert!(fork.room_mm() == 0.0 && fork.room_mm().is_sign_positive());
         // As the engine found it; elsewhere by the centreline.
         assert_eq!(ends[0].plane_at(3.0), (Vec3::new(0.1, 0.0, 3.0), Vec3::NEG_Z, 2.1));
         assert_eq!(ends[0].plane_at(5.5), (Vec3::Z * 5.5, Vec3::NEG_Z, 2.0));
