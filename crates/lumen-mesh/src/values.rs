@@ -49,6 +49,22 @@ impl Scalar {
         }
     }
 
+    /// What VTK's XML formats call it.
+    pub fn vtk_name(self) -> &'static str {
+        match self {
+            Self::I8 => "Int8",
+            Self::U8 => "UInt8",
+            Self::I16 => "Int16",
+            Self::U16 => "UInt16",
+            Self::I32 => "Int32",
+            Self::U32 => "UInt32",
+            Self::I64 => "Int64",
+            Self::U64 => "UInt64",
+            Self::F32 => "Float32",
+            Self::F64 => "Float64",
+        }
+    }
+
     /// Whether it has whole numbers alone.
     pub fn is_whole(self) -> bool {
         !matches!(self, Self::F32 | Self::F64)

@@ -504,7 +504,7 @@ mod tests {
 
     use super::*;
     use crate::PatchKind;
-    use crate::ends::propose;
+    use crate::ends::proposed;
 
     /// A plane through `centre` out along `normal`, of any length, of a vessel of `radius_mm`.
     fn plane(centre: DVec3, normal: DVec3, radius_mm: f64) -> EndPlane {
@@ -574,7 +574,7 @@ mod tests {
         // Without the triangles that have no area and may face either way.
         let mesh = lumen_io::import_mesh(fork().0, "made").mesh;
         let tree = Tree::new(&mesh).unwrap();
-        let planes = propose(&mesh, &tree).unwrap().planes;
+        let (planes, _) = proposed(&mesh, &tree);
         let clipped = clip(&mesh, &planes).unwrap();
         assert_eq!(clipped, clip(&mesh, &planes).unwrap());
         assert_sound(&clipped.mesh, 3);

@@ -249,6 +249,18 @@ pub fn settle_wholly(harness: &mut Harness<'_, LumenApp>) {
     panic!("the background does not come to an end");
 }
 
+/// The report that is saved as a web page.
+///
+/// # Panics
+/// As [`offered`].
+pub fn report_page(harness: &mut Harness<'_, LumenApp>, memory: &Rc<RefCell<Memory>>) -> String {
+    for button in ["Save", "Report...", "Save as web page..."] {
+        harness.get_by_role_and_label(Role::Button, button).click();
+        harness.run_steps(3);
+    }
+    String::from_utf8(offered(harness, memory).1).expect("a page is text")
+}
+
 /// The file that is offered next: its name and its bytes. How many frames go by before a picture is drawn or a file is made is
 /// the machine's affair, not the app's, so that the wait is by the clock.
 ///

@@ -40,7 +40,7 @@ pub(super) fn xml(output: &Output) -> Vec<u8> {
         normals.map_or(String::new(), |normals| array("Float32", "Normals", 3, &vectors(normals, f32::to_le_bytes)));
     let mut cell_data = String::new();
     for Array { name, on, components, values, .. } in arrays {
-        let line = array(xml_name(values.scalar()), &escaped(name), *components, values.bytes());
+        let line = array(values.scalar().vtk_name(), &escaped(name), *components, values.bytes());
         if *on == Association::Point { &mut point_data } else { &mut cell_data }.push_str(&line);
     }
     let attributes = if normals.is_some() { " Normals=\"Normals\"" } else { "" };
@@ -95,22 +95,6 @@ fn escaped(name: &str) -> String {
         }
     }
     out
-}
-
-/// What the XML formats call a type.
-fn xml_name(scalar: Scalar) -> &'static str {
-    match scalar {
-        Scalar::I8 => "Int8",
-        Scalar::U8 => "UInt8",
-        Scalar::I16 => "Int16",
-        Scalar::U16 => "UInt16",
-        Scalar::I32 => "Int32",
-        Scalar::U32 => "UInt32",
-        Scalar::I64 => "Int64",
-        Scalar::U64 => "UInt64",
-        Scalar::F32 => "Float32",
-        Scalar::F64 => "Float64",
-    }
 }
 
 /// Arrays one after another, compressed, each with its header.

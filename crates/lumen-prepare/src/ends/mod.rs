@@ -87,12 +87,6 @@ pub enum EndError {
     /// The surface is broken.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// There is no such branch.
-    #[error("there is no branch {}", branch + 1)]
-    NoBranch {
-        /// Its place.
-        branch: u32,
-    },
     /// The branch goes on there.
     #[error("branch {} does not end at its {}: other branches go on there", branch + 1, side(*at_end))]
     Joint {
@@ -151,30 +145,8 @@ pub enum EndError {
     },
 }
 
-impl EndError {
-    /// The place of the branch and whether its last point is meant, where it is that of one end.
-    pub fn end(&self) -> Option<(u32, bool)> {
-        match *self {
-            Self::Joint { branch, at_end }
-            | Self::TooNearFork { branch, at_end, .. }
-            | Self::NotRound { branch, at_end, .. }
-            | Self::NoSection { branch, at_end, .. } => Some((branch, at_end)),
-            Self::Surface(_) | Self::NoBranch { .. } | Self::Distance { .. } => None,
-        }
-    }
-}
-
 fn side(at_end: bool) -> &'static str {
     if at_end { "last point" } else { "first point" }
-}
-
-/// Planes for the ends of a surface.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Proposal {
-    /// A plane for each end that can be cut, in the order of the branches, the first point before the last.
-    pub planes: Vec<EndPlane>,
-    /// Why other ends cannot.
-    pub refused: Vec<EndError>,
 }
 
 /// The ends of the branches of `tree` at which none goes on: the branch, and whether its last point is meant; the first point
@@ -208,21 +180,27 @@ impl<'a> EndPlanes<'a> {
         VesselEnd { mesh: self.mesh, index: &self.tree.space.index, branch, at_end }
     }
 
+    /// The same of an end at which no branch goes on.
+    fn free(&self, branch: &'a Branch, at_end: bool) -> Result<VesselEnd<'a>, EndError> {
+        let is_free = branch.ends[usize::from(at_end)] != End::Joint;
+        if is_free { Ok(self.end(branch, at_end)) } else { Err(EndError::Joint { branch: branch.id, at_end }) }
+    }
+
     /// The plane nearest to a free end at which the vessel is round.
     ///
     /// # Errors
-    /// [`EndError`], where no place is round and clear of the fork.
+    /// [`EndError`], where the branch does not end there, or no place is round and clear of the fork.
     pub fn round(&self, branch: &'a Branch, at_end: bool) -> Result<EndPlane, EndError> {
-        self.end(branch, at_end).nearest_plane(branch.ends[usize::from(at_end)], &self.rims)
+        self.free(branch, at_end)?.nearest_plane(branch.ends[usize::from(at_end)], &self.rims)
     }
 
     /// The plane at `distance` from a free end along the centreline. The section need not be round:
     /// [`EndPlane::roundness`] says how round it is.
     ///
     /// # Errors
-    /// [`EndError`], where a fork is too near or the section is not closed.
+    /// [`EndError`], where the branch does not end there, a fork is too near or the section is not closed.
     pub fn at(&self, branch: &'a Branch, at_end: bool, distance: Length) -> Result<EndPlane, EndError> {
-        self.end(branch, at_end).at_distance(distance)
+        self.free(branch, at_end)?.at_distance(distance)
     }
 
     /// The centreline from a free end inwards, as far as a plane may stand.
@@ -236,35 +214,6 @@ impl<'a> EndPlanes<'a> {
         }
         inside.into_iter().map(|i| branch.points[i]).collect()
     }
-}
-
-/// Proposes a plane for every end of `tree`, that of `mesh`.
-///
-/// # Errors
-/// [`SurfaceError`]. Ends that cannot be cut are no error of the whole: [`Proposal::refused`] has them.
-pub fn propose(mesh: &TriMesh, tree: &Tree) -> Result<Proposal, SurfaceError> {
-    let planes = EndPlanes::new(mesh, tree)?;
-    let mut proposal = Proposal::default();
-    for (branch, at_end) in free_ends(tree) {
-        match planes.round(branch, at_end) {
-            Ok(plane) => proposal.planes.push(plane),
-            Err(error) => proposal.refused.push(error),
-        }
-    }
-    Ok(proposal)
-}
-
-/// The plane at `distance` from an end of a branch of `tree`, that of `mesh`, as [`EndPlanes::at`] finds it.
-///
-/// # Errors
-/// [`EndError`], where the branch does not end there, a fork is too near or the section is not closed.
-pub fn place(mesh: &TriMesh, tree: &Tree, branch: u32, at_end: bool, distance: Length) -> Result<EndPlane, EndError> {
-    check_surface(mesh)?;
-    let branch = tree.branches().get(branch as usize).ok_or(EndError::NoBranch { branch })?;
-    if branch.ends[usize::from(at_end)] == End::Joint {
-        return Err(EndError::Joint { branch: branch.id, at_end });
-    }
-    VesselEnd { mesh, index: &tree.space.index, branch, at_end }.at_distance(distance)
 }
 
 /// An end of a branch, of a surface and its index.
@@ -393,6 +342,20 @@ impl VesselEnd<'_> {
     }
 }
 
+/// The plane at each end where it is round, and why others have none.
+#[cfg(test)]
+pub(crate) fn proposed(mesh: &TriMesh, tree: &Tree) -> (Vec<EndPlane>, Vec<EndError>) {
+    let planes = EndPlanes::new(mesh, tree).unwrap();
+    let (mut found, mut refused) = (Vec::new(), Vec::new());
+    for (branch, at_end) in free_ends(tree) {
+        match planes.round(branch, at_end) {
+            Ok(plane) => found.push(plane),
+            Err(error) => refused.push(error),
+        }
+    }
+    (found, refused)
+}
+
 #[cfg(test)]
 mod tests {
     use lumen_mesh::shapes::{fork, tube};
@@ -403,7 +366,7 @@ mod tests {
     fn a_tube_is_cut_square_at_both_ends_just_inside_of_its_rims() {
         let mesh = tube(32, 80, 40.0, |_| 2.0);
         let tree = Tree::new(&mesh).unwrap();
-        let Proposal { planes, refused } = propose(&mesh, &tree).unwrap();
+        let (planes, refused) = proposed(&mesh, &tree);
         assert!(refused.is_empty() && planes.len() == 2, "{refused:?}");
         for plane in &planes {
             let inside = if plane.normal.z > 0.0 { 40.0 - plane.centre.z } else { plane.centre.z };
@@ -422,7 +385,7 @@ mod tests {
             p.z += p.x * ((p.z - 36.0) / 4.0).clamp(0.0, 1.0);
         }
         let tree = Tree::new(&mesh).unwrap();
-        let planes = propose(&mesh, &tree).unwrap().planes;
+        let (planes, _) = proposed(&mesh, &tree);
         let plane = planes.iter().find(|plane| plane.normal.z > 0.5).unwrap();
         let rim = mesh.positions.len() - 32;
         assert!(mesh.positions[rim..].iter().all(|p| (p.as_dvec3() - plane.centre).dot(plane.normal) > 0.0));
@@ -432,7 +395,7 @@ mod tests {
     fn the_closed_ends_of_a_fork_are_cut_one_to_two_radii_from_their_tips() {
         let (mesh, [trunk, joint, left, right]) = fork();
         let tree = Tree::new(&mesh).unwrap();
-        let Proposal { planes, refused } = propose(&mesh, &tree).unwrap();
+        let (planes, refused) = proposed(&mesh, &tree);
         assert!(refused.is_empty() && planes.len() == 3, "{refused:?} {planes:?}");
         for (end, radius) in [(trunk, 4.0), (left, 3.0), (right, 2.0)] {
             let out = (end - joint).normalize();
@@ -450,17 +413,17 @@ mod tests {
     fn an_explicit_distance_is_kept_or_refused_with_the_room_there_is() {
         let (mesh, _) = fork();
         let tree = Tree::new(&mesh).unwrap();
+        let planes = EndPlanes::new(&mesh, &tree).unwrap();
         let branch = tree.branches().iter().find(|branch| branch.ends[1] != End::Joint).unwrap();
-        let plane = place(&mesh, &tree, branch.id, true, Length::Mm(10.0)).unwrap();
+        let plane = planes.at(branch, true, Length::Mm(10.0)).unwrap();
         assert!((plane.centre.distance(branch.points[branch.points.len() - 1].at) - 10.0).abs() < 0.3, "{plane:?}");
-        let by_radii = place(&mesh, &tree, branch.id, true, Length::Radii(2.0)).unwrap();
+        let by_radii = planes.at(branch, true, Length::Radii(2.0)).unwrap();
         let radius = branch.points[branch.points.len() - 1].radius;
         assert!((by_radii.arc_mm - 2.0 * radius).abs() < 1e-9);
-        let far = place(&mesh, &tree, branch.id, true, Length::Mm(branch.length_mm() - 0.5));
+        let far = planes.at(branch, true, Length::Mm(branch.length_mm() - 0.5));
         assert!(matches!(far, Err(EndError::TooNearFork { room_mm, .. }) if room_mm > 20.0), "{far:?}");
-        assert!(matches!(place(&mesh, &tree, 99, true, Length::Mm(1.0)), Err(EndError::NoBranch { branch: 99 })));
-        let bad = place(&mesh, &tree, branch.id, true, Length::Mm(f64::NAN));
+        let bad = planes.at(branch, true, Length::Mm(f64::NAN));
         assert!(matches!(bad, Err(EndError::Distance { .. })));
-        assert!(matches!(place(&mesh, &tree, branch.id, false, Length::Mm(1.0)), Err(EndError::Joint { .. })));
+        assert!(matches!(planes.at(branch, false, Length::Mm(1.0)), Err(EndError::Joint { .. })));
     }
 }

@@ -6,7 +6,7 @@
 
 use std::fmt::Display;
 
-use lumen_mesh::arrays::{Association, Scalar};
+use lumen_mesh::arrays::Association;
 use lumen_mesh::{Array, used_vertices};
 
 use super::{Part, Sheet, cap_id, point, put, tuple};
@@ -80,18 +80,7 @@ fn polydata(sheet: &Sheet, parts: &[&Part], arrays: &[Array], with_global_ids: b
 
 /// These rows of an array.
 fn carried(text: &mut String, array: &Array, rows: &[u32]) {
-    let kind = match array.values.scalar() {
-        Scalar::I8 => "Int8",
-        Scalar::U8 => "UInt8",
-        Scalar::I16 => "Int16",
-        Scalar::U16 => "UInt16",
-        Scalar::I32 => "Int32",
-        Scalar::U32 => "UInt32",
-        Scalar::I64 => "Int64",
-        Scalar::U64 => "UInt64",
-        Scalar::F32 => "Float32",
-        Scalar::F64 => "Float64",
-    };
+    let kind = array.values.scalar().vtk_name();
     let (name, components) = (escaped(&array.name), array.components);
     put!(text, "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">");
     rows.iter().for_each(|&row| put!(text, "{}", tuple(array, row as usize, components)));

@@ -14,7 +14,9 @@ use lumen::phantom::Sample;
 use lumen::pipeline::settings::{Preset, Settings, Target};
 use lumen::sharing::measures::{Found, MadeOn, Measure};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, offered, open, says, seen, settle, settle_wholly, tube};
+use lumen_ui_tests::{
+    DESKTOP, Memory, PHONE, app, offered, open, report_page, says, seen, settle, settle_wholly, tube,
+};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 
@@ -261,13 +263,7 @@ fn the_report_lists_them_and_draws_them_on_the_plain_surfaces_where_the_views_do
     click(&mut harness, Vec3::new(0.0, -4.0, 10.0));
     click(&mut harness, Vec3::new(0.0, -4.0, 30.0));
     let value = measures(&harness)[0].value();
-    let report = |harness: &mut Harness<'_, LumenApp>| {
-        for button in ["Save", "Report...", "Save as web page..."] {
-            harness.get_by_role_and_label(Role::Button, button).click();
-            harness.run_steps(3);
-        }
-        String::from_utf8(offered(harness, &memory).1).unwrap()
-    };
+    let report = |harness: &mut Harness<'_, LumenApp>| report_page(harness, &memory);
     let page = report(&mut harness);
     harness.get_by_role_and_label(Role::CheckBox, "In the views").click();
     harness.run_steps(3);

@@ -9,7 +9,7 @@ use lumen::prepare::PatchKind;
 use lumen::prepare::cuts::ClipAt;
 use lumen::prepare::ends::Length;
 use lumen::prepare::prepare::Plan;
-use lumen_ui_tests::{DESKTOP, app, drag, offered, open as open_file, says, seen, settle, tube};
+use lumen_ui_tests::{DESKTOP, app, drag, offered, open as open_file, report_page, says, seen, settle, tube};
 
 /// Brings a control into sight and presses it.
 fn press(harness: &mut Harness<'_, LumenApp>, role: Role, label: &str) {
@@ -222,13 +222,7 @@ fn a_report_has_the_inlets_and_outlets_while_they_are_of_what_is_asked_for() {
     press(&mut harness, Role::DisclosureTriangle, "For a solver");
     press(&mut harness, Role::Button, "Make ready");
     settle(&mut harness);
-    let report = |harness: &mut Harness<'_, LumenApp>| {
-        for button in ["Save", "Report...", "Save as web page..."] {
-            harness.get_by_role_and_label(Role::Button, button).click();
-            harness.run_steps(3);
-        }
-        String::from_utf8(offered(harness, &memory).1).unwrap()
-    };
+    let report = |harness: &mut Harness<'_, LumenApp>| report_page(harness, &memory);
     let page = report(&mut harness);
     let ready = &preparation(&harness).made.as_ref().unwrap().ready;
     for patch in &ready.patches {
