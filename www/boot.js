@@ -153,6 +153,23 @@ async function givesWay() {
   return true;
 }
 
+/** Fetches what the first picture did without, for the page and for the Workers that have begun and will begin. */
+async function bring(early, { fetched, join }) {
+  const module = await fetched(early).catch((error) => console.warn(`${error.message}: asked for again when it is needed`));
+  if (!module) return;
+  globalThis.lumenLateModule = module;
+  globalThis.lumenEngine?.postMessage(module);
+  join(early, module);
+}
+
+const firstPicture = new Promise((resolve) => {
+  new MutationObserver((_, observer) => {
+    if (root.dataset.state !== "ready") return;
+    observer.disconnect();
+    resolve();
+  }).observe(root, { attributeFilter: ["data-state"] });
+});
+
 async function start() {
   if (await givesWay()) return;
   for (const [what, name] of BY_THEMSELVES) document.querySelector(`link[rel="${what}"]`).href = name;
@@ -160,11 +177,12 @@ async function start() {
   if (sentence) return showUnsupported(sentence);
 
   const total = Number(document.querySelector('meta[name="lumen-module-bytes"]')?.content ?? 0);
-  let glue, module;
+  let glue, module, late;
   try {
-    [glue, module] = await Promise.all([
+    [glue, module, late] = await Promise.all([
       import(at("lumen-web.js")),
       fetchModule(at("lumen-web_bg.wasm"), total),
+      import(at("late.js")),
       import(at("store.js")),
       import(at("drop.js")),
       import(at("video.js")),
@@ -174,8 +192,10 @@ async function start() {
   }
   document.getElementById("loading-text").textContent = "Starting";
   await checkPixels(document.getElementById("lumen"));
-  await glue.default({ module_or_path: module });
+  const early = await glue.default({ module_or_path: module });
   keepBuild();
+  await firstPicture;
+  await bring(early, late);
 }
 
 /**

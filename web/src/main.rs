@@ -6,7 +6,7 @@
 //! - [`platform`]: what the app asks of a browser, with [`files`], the file dialog and downloads, and [`store`], what
 //!   outlives the page; [`address`]: what stands after `?` in the page's.
 //! - [`hid`]: haptic devices, asked for in the page and served in the trial's Worker; [`sound`]: a tone in place of a force; [`video`]: frames as a video.
-//! - [`texts`]: the messages of other languages than English.
+//! - [`texts`]: the messages of other languages than English; [`late`]: the half of the program that is fetched later.
 //! - [`worker`]: the page's end of the line to a Worker, whose other end is the crate `lumen-worker`'s; [`job`]: which engines
 //!   have one; [`link`]: that line as the app's line to the engine; [`scans`]: that of scans, another program's.
 //!
@@ -24,6 +24,8 @@ mod graphics;
 mod hid;
 #[cfg(target_arch = "wasm32")]
 mod job;
+#[cfg(target_arch = "wasm32")]
+mod late;
 #[cfg(target_arch = "wasm32")]
 mod link;
 #[cfg(target_arch = "wasm32")]

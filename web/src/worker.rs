@@ -186,7 +186,11 @@ fn spawn(job: &str, program: Option<&str>, inbox: &Inbox) -> Result<(Worker, Lis
     let first = Object::new();
     match program {
         Some(program) => Reflect::set(&first, &"program".into(), &program.into())?,
-        None => Reflect::set(&first, &"module".into(), &wasm_bindgen::module())?,
+        None => {
+            Reflect::set(&first, &"module".into(), &wasm_bindgen::module())?;
+            let late = &"lumenLateModule".into();
+            Reflect::set(&first, late, &Reflect::get(&js_sys::global(), late)?)?
+        }
     };
     Reflect::set(&first, &"job".into(), &job.into())?;
     worker.post_message(&first)?;

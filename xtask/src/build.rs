@@ -16,13 +16,16 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 
 use crate::step::{cargo, files_below, quiet_step, root, run, step, target};
-use crate::{glue, page, tools};
+use crate::{glue, page, split, tools};
 
 /// The most a first visit may download, in bytes, each file compressed with gzip.
 const BUDGET: usize = 4_000_000;
 
 /// The page's program, and that of scans. Each is built by itself: together they would share the features of both.
 const PROGRAMS: [&str; 2] = ["lumen-web", "lumen-scan"];
+
+/// The half of the page's module that its first picture does without.
+const LATE: &str = "lumen-web_late.wasm";
 
 /// What a page computes seldom and not for a frame is made for a short download: 17 kB of it.
 const SMALL: &str = "profile.release.package.lumen-prepare.opt-level='z'";
@@ -65,13 +68,17 @@ pub(crate) fn build_beside(others: &[&str]) -> Result<PathBuf> {
         // What is there stays until all of the new is.
         let made = target().join("dist");
         step("Lay out dist/ with wasm-bindgen", || lay_out(&made))?;
+        let page = made.join(module(PROGRAMS[0]));
+        let late = made.join(LATE);
+        step("Take apart what the first picture does without", || split::split(&page, &late))?;
         quiet_step("Optimise the modules with wasm-opt", 40.0, || {
-            PROGRAMS.into_iter().try_for_each(|program| optimise(&npm, &made.join(module(program))))
+            let modules = PROGRAMS.map(|program| made.join(module(program)));
+            modules.iter().chain([&late]).try_for_each(|module| optimise(&npm, module))
         })?;
         step("Shorten the scripts with terser", || {
             PROGRAMS.into_iter().try_for_each(|program| glue::shorten(&npm, &made.join(format!("{program}.js"))))
         })?;
-        page::stamp(&made, &made.join(module(PROGRAMS[0])))?;
+        page::stamp(&made, &page)?;
         replace(&made, &dist)?;
     }
     report_sizes(&dist)?;
@@ -158,7 +165,7 @@ pub(crate) fn optimise(npm: &Path, module: &Path) -> Result<()> {
 
 /// Endings of what the start does not wait for, as a browser test sees it too (`shell.test.mjs`): texts of other languages,
 /// what an installed app has, the engines' Worker, the licence of the letters.
-const LATER: [&str; 6] = [MESSAGES, ".png", ".webmanifest", "service-worker.js", "worker.js", ".txt"];
+const LATER: [&str; 7] = [LATE, MESSAGES, ".png", ".webmanifest", "service-worker.js", "worker.js", ".txt"];
 
 /// Prints what a first visit downloads, and what is fetched in the background, and fails if the first is too much.
 fn report_sizes(dist: &Path) -> Result<()> {

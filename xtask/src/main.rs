@@ -25,6 +25,7 @@ mod page;
 mod peers;
 mod read_back;
 mod serve;
+mod split;
 mod step;
 mod test;
 mod tools;

@@ -1,0 +1,17 @@
+//! The late half of the program: `cargo xtask build` takes what the first picture does without into a module of its own
+//! (`xtask/src/split.rs`), and `www/late.js` fetches it.
+
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen]
+extern "C" {
+    #[wasm_bindgen(js_name = lumenLate)]
+    fn join_late(early: &JsValue);
+}
+
+/// Brings the late half at once; what is left of a late function calls it where that half is not there.
+#[wasm_bindgen]
+#[allow(unreachable_pub, reason = "wasm-bindgen exports only what is public")]
+pub fn bring_late() {
+    join_late(&wasm_bindgen::exports());
+}
