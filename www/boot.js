@@ -14,6 +14,8 @@ const SIMD_MODULE = new Uint8Array([
 const RESULT = "lumen-result.stl";
 /** How long the engine may take to answer then. */
 const PATIENCE_MS = 10_000;
+/** After how long what could not be downloaded is asked for again. */
+const RETRY_MS = 3_000;
 
 /** What browsers ask for by themselves, as soon as the page says where it is and at a moment of their own. */
 const BY_THEMSELVES = [
@@ -153,22 +155,23 @@ async function givesWay() {
   return true;
 }
 
-/** Fetches what the first picture did without, for the page and for the Workers that have begun and will begin. */
-async function bring(early, { fetched, join }) {
-  const module = await fetched(early).catch((error) => console.warn(`${error.message}: asked for again when it is needed`));
-  if (!module) return;
-  globalThis.lumenLateModule = module;
-  globalThis.lumenEngine?.postMessage(module);
-  join(early, module);
+/** Fetches the late half of the program, for the page and its Workers. */
+async function bring(late, module) {
+  try {
+    await late.bring(module);
+  } catch (error) {
+    console.warn(`The rest of Lumen could not be downloaded yet: ${error.message}`);
+    setTimeout(bring, RETRY_MS, late, module);
+  }
+  if (globalThis.lumenLateModule) globalThis.lumenEngine?.postMessage(lumenLateModule);
 }
 
-const firstPicture = new Promise((resolve) => {
-  new MutationObserver((_, observer) => {
-    if (root.dataset.state !== "ready") return;
-    observer.disconnect();
-    resolve();
-  }).observe(root, { attributeFilter: ["data-state"] });
-});
+function firstPicture() {
+  return new Promise((resolve) => {
+    const observer = new MutationObserver(() => root.dataset.state === "ready" && resolve());
+    observer.observe(root, { attributeFilter: ["data-state"] });
+  });
+}
 
 async function start() {
   if (await givesWay()) return;
@@ -192,10 +195,15 @@ async function start() {
   }
   document.getElementById("loading-text").textContent = "Starting";
   await checkPixels(document.getElementById("lumen"));
-  const early = await glue.default({ module_or_path: module });
+  // What is kept here costs no download, and asking a server for it in the middle of a call would fail without a network.
+  const isKept = navigator.serviceWorker?.controller;
+  if (isKept) await bring(late, module);
+  const first = firstPicture();
+  await glue.default({ module_or_path: module });
   keepBuild();
-  await firstPicture;
-  await bring(early, late);
+  if (isKept) return;
+  await first;
+  await bring(late, module);
 }
 
 /**

@@ -1,25 +1,27 @@
-// The late half of the program (xtask/src/split.rs): fetched after the first picture, or when it is first called. A build that is
-// not split, as Trunk's, has none.
+// The late half of the program (xtask/src/split.rs), which its first picture does without. A build that is not split, as
+// Trunk's, has none.
 
 const address = new URL(`lumen-web_late.wasm${new URL(import.meta.url).search}`, import.meta.url);
 
-/** Puts it into its place in the program whose exports are `early`. */
-export function join(early, late) {
-  if (!early.lateIsThere.value) new WebAssembly.Instance(late, { early });
+/** Fetches it for this program, and for the Workers that begin from now on (web/src/worker.rs). */
+export async function bring(program) {
+  if (!WebAssembly.Module.exports(program).some(({ name }) => name === "lateIsThere")) return;
+  globalThis.lumenLateModule ??= await WebAssembly.compileStreaming(fetch(address));
 }
 
-/** The compiled half; null where the program is whole. */
-export async function fetched(early) {
-  return "lateIsThere" in early ? WebAssembly.compileStreaming(fetch(address, { priority: "low" })) : null;
-}
-
-/** Called by the program in the middle of a call, which cannot wait. */
-globalThis.lumenLate = (early) => {
+/** It, by a request that is waited for. */
+function broughtAtOnce() {
   const request = new XMLHttpRequest();
   request.open("GET", address, false);
   // A page may wait for text alone; here each letter is a byte.
   request.overrideMimeType("text/plain; charset=x-user-defined");
   request.send();
   if (request.status !== 200) throw new Error(`${request.status} ${request.statusText} (${address})`);
-  join(early, new WebAssembly.Module(Uint8Array.from(request.responseText, (letter) => letter.charCodeAt(0) & 255)));
+  return new WebAssembly.Module(Uint8Array.from(request.responseText, (letter) => letter.charCodeAt(0) & 255));
+}
+
+/** Called by the program, whose exports are `early`, in the middle of a call that comes to the late half first. */
+globalThis.lumenLate = (early) => {
+  globalThis.lumenLateModule ??= broughtAtOnce();
+  new WebAssembly.Instance(globalThis.lumenLateModule, { early });
 };

@@ -17,25 +17,21 @@ function sayWhereMemoryEnds(memory) {
   });
 }
 
-// The page hands on the late half of its program once it has it; the program itself hears nothing of that.
-function awaitLate(early, { join }) {
-  self.addEventListener("message", (event) => {
-    if (!(event.data instanceof WebAssembly.Module)) return;
-    event.stopImmediatePropagation();
-    join(early, event.data);
-  });
-}
+// The page hands on the late half of its program as soon as it has it (boot.js). The program hears nothing of that.
+self.addEventListener("message", (event) => {
+  if (!(event.data instanceof WebAssembly.Module)) return;
+  event.stopImmediatePropagation();
+  self.lumenLateModule = event.data;
+});
 
 async function begin({ data: { module, lumenLateModule, program = "lumen-web", job } }) {
   self.addEventListener("message", hold);
   // Every file of a build bears its version.
   const at = (name) => new URL(name + self.location.search, import.meta.url);
-  const glue = await import(at(`${program}.js`));
-  const late = module && (await import(at("late.js")));
-  const early = module ? glue.initSync({ module }) : await glue.default({ module_or_path: at(`${program}_bg.wasm`) });
-  sayWhereMemoryEnds(early.memory);
-  if (lumenLateModule) late.join(early, lumenLateModule);
-  else if (module) awaitLate(early, late);
+  self.lumenLateModule ??= lumenLateModule;
+  const [glue] = await Promise.all([import(at(`${program}.js`)), module && import(at("late.js"))]);
+  const { memory } = module ? glue.initSync({ module }) : await glue.default({ module_or_path: at(`${program}_bg.wasm`) });
+  sayWhereMemoryEnds(memory);
   glue.worker_main(job);
   // Whoever waits for the program, which the page has not fetched, hears that it is there.
   if (!module) self.postMessage(null);

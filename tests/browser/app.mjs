@@ -42,6 +42,15 @@ export function shownTriangles(all) {
 /** The Workers on a job ("pipeline", "trial", "scan"). */
 export const workersOn = (page, job) => page.workers().filter((worker) => worker.url().endsWith(`#${job}`));
 
+/** An octahedron of 30 mm as an OBJ file: eight triangles. */
+export const OCTAHEDRON = {
+  name: "octahedron.obj",
+  buffer: Buffer.from(
+    "v 30 0 0\nv -30 0 0\nv 0 30 0\nv 0 -30 0\nv 0 0 30\nv 0 0 -30\n" +
+      "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n",
+  ),
+};
+
 /** Opens a file (a path, or { name, buffer }), or several, through the browser's own dialog. */
 export async function openFile(page, file) {
   const chooser = page.waitForEvent("filechooser");

@@ -6,7 +6,7 @@ import { mkdtemp, rename, rm, symlink } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { openFile, settled, shownTriangles } from "./app.mjs";
+import { OCTAHEDRON, openFile, settled, shownTriangles } from "./app.mjs";
 import { COARSE, dist, eventually, launch, openApp, started } from "./browser.mjs";
 import { anotherBuild, versionOf } from "./builds.mjs";
 
@@ -19,15 +19,6 @@ after(async () => {
   await browser.close();
   await rm(scratch, { recursive: true });
 });
-
-/** An octahedron of 30 mm as an OBJ file: eight triangles. */
-const OCTAHEDRON = {
-  name: "octahedron.obj",
-  buffer: Buffer.from(
-    "v 30 0 0\nv -30 0 0\nv 0 30 0\nv 0 -30 0\nv 0 0 30\nv 0 0 -30\n" +
-      "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n",
-  ),
-};
 
 /** Waits until the page's worker has everything that it keeps. */
 const kept = (page) =>

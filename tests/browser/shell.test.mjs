@@ -12,7 +12,7 @@ let browser;
 before(async () => (browser = await launch()));
 after(() => browser.close());
 
-test("a first visit downloads at most 4 MB, compressed, before the app starts", async (t) => {
+test("a first visit downloads at most 3.2 MB, compressed, before the app starts", async (t) => {
   for (const locale of ["en-US", "de-DE"]) {
     const { page } = await openPage(t, browser, { context: { locale } });
     await started(page);
@@ -27,7 +27,7 @@ test("a first visit downloads at most 4 MB, compressed, before the app starts", 
     const total = (await Promise.all(sizes)).reduce((sum, size) => sum + size, 0);
     t.diagnostic(`${locale}: ${total} bytes: ${all.join(", ")}`);
     assert(all.includes("lumen-web_bg.wasm") && total > 1_000_000, "the program was asked for");
-    assert(total <= 4_000_000, `${total} bytes`);
+    assert(total <= 3_200_000, `${total} bytes`);
   }
 });
 

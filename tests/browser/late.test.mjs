@@ -1,0 +1,83 @@
+// The half of the program that the first picture does without: when it is asked for, and what happens where it is not there.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { OCTAHEDRON, openFile, save, settled, shownTriangles, workersOn } from "./app.mjs";
+import { COARSE, dist, eventually, launch, openApp, twin } from "./browser.mjs";
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+
+const NAME = "lumen-web_late.wasm";
+
+/** The requests for it that a page or a Worker has made: when, and whether anything waited for the answer. */
+const requests = (of) =>
+  of.evaluate((name) => {
+    const all = performance.getEntriesByType("resource").filter((entry) => entry.name.includes(name));
+    return all.map(({ startTime, initiatorType }) => ({ startTime, waits: initiatorType === "xmlhttprequest" }));
+  }, NAME);
+
+/** What is served in its place: `answer(n)` for the n-th request. */
+const served = (answer) => {
+  let count = 0;
+  return {
+    type: "application/wasm",
+    get body() {
+      return answer((count += 1));
+    },
+  };
+};
+
+const whole = () => readFile(join(dist, NAME));
+
+test("it is fetched once, after the first picture, and neither page nor engine waits for it", async (t) => {
+  const context = { ...COARSE, serviceWorkers: "block" };
+  const ready = () => new MutationObserver(() => performance.mark(document.documentElement.dataset.state)).observe(document, { subtree: true, attributeFilter: ["data-state"] });
+  const { page, server, wrong } = await openApp(t, browser, { context, query: "", before: (page) => page.addInitScript(ready) });
+  await settled(page);
+  const [only, ...more] = await eventually(() => requests(page), (all) => all.length > 0);
+  const drawn = await page.evaluate(() => performance.getEntriesByName("ready")[0].startTime);
+  assert.deepEqual(more, []);
+  assert(!only.waits && only.startTime >= drawn, JSON.stringify({ only, drawn }));
+  assert.deepEqual(await requests(workersOn(page, "pipeline")[0]), []);
+
+  await openFile(page, OCTAHEDRON);
+  await eventually(() => settled(page), (all) => shownTriangles(all) < 8);
+  assert.equal(server.asked.filter((path) => path.startsWith(NAME)).length, 1, "a file asks for nothing more");
+  assert.deepEqual(wrong, []);
+});
+
+test("what is called before it has come waits for it", async (t) => {
+  const context = { ...COARSE, serviceWorkers: "block" };
+  const never = new Promise(() => {});
+  const files = { [NAME]: served((count) => (count === 1 ? never : whole())) };
+  const { page, wrong } = await openApp(t, browser, { context, files });
+  await settled(page);
+  await eventually(() => requests(page).then(() => page.evaluate(() => document.readyState)), (state) => state === "complete");
+  await openFile(page, OCTAHEDRON);
+  await eventually(() => settled(page), (all) => shownTriangles(all) < 8);
+  const [asked] = await requests(workersOn(page, "pipeline")[0]);
+  assert(asked.waits, "the engine had to ask for it");
+  assert.deepEqual(wrong, []);
+});
+
+test("while it cannot be had what is open stays, and it is asked for again", async (t) => {
+  const context = { ...COARSE, serviceWorkers: "block" };
+  let isThere = false;
+  const files = { [NAME]: served(() => (isThere ? whole() : Promise.reject(new Error("no network")))) };
+  const { page } = await openApp(t, browser, { context, files });
+  const shown = shownTriangles(await settled(page));
+  await openFile(page, OCTAHEDRON);
+  await twin(page, "alert", /./).or(page.locator("#twins").getByText(/stopped/)).first().waitFor({ state: "attached" });
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.state), "ready");
+  assert.equal(shownTriangles(await settled(page)), shown);
+
+  isThere = true;
+  await eventually(() => page.evaluate(() => Boolean(globalThis.lumenLateModule)), Boolean);
+  await openFile(page, OCTAHEDRON);
+  await eventually(() => settled(page), (all) => shownTriangles(all) < 8);
+  assert((await save(page, "STL")).bytes.length > 84);
+});
