@@ -15,8 +15,17 @@ function broughtAtOnce() {
   request.open("GET", address, false);
   // A page may wait for text alone; here each letter is a byte.
   request.overrideMimeType("text/plain; charset=x-user-defined");
-  request.send();
-  if (request.status !== 200) throw new Error(`${request.status} ${request.statusText} (${address})`);
+  try {
+    request.send();
+  } catch {
+    // There is no network: status 0.
+  }
+  if (request.status !== 200) {
+    const error = new Error(`A part of Lumen could not be downloaded: ${request.status} ${request.statusText} (${address})`);
+    // The program ends here, in the midst of its work (boot.js).
+    error.name = "Panic";
+    throw error;
+  }
   return new WebAssembly.Module(Uint8Array.from(request.responseText, (letter) => letter.charCodeAt(0) & 255));
 }
 

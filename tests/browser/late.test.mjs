@@ -4,8 +4,8 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { OCTAHEDRON, openFile, save, settled, shownTriangles, workersOn } from "./app.mjs";
-import { COARSE, dist, eventually, launch, openApp, twin } from "./browser.mjs";
+import { OCTAHEDRON, openFile, settled, shownTriangles, stlTriangles, workersOn } from "./app.mjs";
+import { COARSE, dist, eventually, launch, openApp } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch()));
@@ -52,32 +52,39 @@ test("it is fetched once, after the first picture, and neither page nor engine w
 
 test("what is called before it has come waits for it", async (t) => {
   const context = { ...COARSE, serviceWorkers: "block" };
-  const never = new Promise(() => {});
-  const files = { [NAME]: served((count) => (count === 1 ? never : whole())) };
+  let arrive;
+  const arrival = new Promise((resolve) => (arrive = resolve));
+  const files = { [NAME]: served(() => arrival.then(whole)) };
   const { page, wrong } = await openApp(t, browser, { context, files });
   await settled(page);
-  await eventually(() => requests(page).then(() => page.evaluate(() => document.readyState)), (state) => state === "complete");
   await openFile(page, OCTAHEDRON);
+  setTimeout(arrive, 1000);
   await eventually(() => settled(page), (all) => shownTriangles(all) < 8);
   const [asked] = await requests(workersOn(page, "pipeline")[0]);
   assert(asked.waits, "the engine had to ask for it");
   assert.deepEqual(wrong, []);
 });
 
-test("while it cannot be had what is open stays, and it is asked for again", async (t) => {
+test("where it cannot be had when it is called, the page says so, and what is shown can be saved", async (t) => {
   const context = { ...COARSE, serviceWorkers: "block" };
-  let isThere = false;
-  const files = { [NAME]: served(() => (isThere ? whole() : Promise.reject(new Error("no network")))) };
+  const files = { [NAME]: served(() => Promise.reject(new Error("no network"))) };
   const { page } = await openApp(t, browser, { context, files });
   const shown = shownTriangles(await settled(page));
   await openFile(page, OCTAHEDRON);
-  await twin(page, "alert", /./).or(page.locator("#twins").getByText(/stopped/)).first().waitFor({ state: "attached" });
-  assert.equal(await page.evaluate(() => document.documentElement.dataset.state), "ready");
-  assert.equal(shownTriangles(await settled(page)), shown);
+  await page.waitForSelector('html[data-state="failed"]', { state: "attached" });
+  assert.match(await page.locator("#failed-details").textContent(), /A part of Lumen could not be downloaded: 404 Not Found/);
+  const download = page.waitForEvent("download");
+  await page.getByRole("button", { name: /save/i }).click();
+  assert.equal(stlTriangles(await readFile(await (await download).path())), shown);
+});
 
-  isThere = true;
+test("what could not be fetched at first is asked for again", async (t) => {
+  const context = { ...COARSE, serviceWorkers: "block" };
+  const files = { [NAME]: served((count) => (count < 3 ? Promise.reject(new Error("no network")) : whole())) };
+  const { page } = await openApp(t, browser, { context, files });
+  await settled(page);
   await eventually(() => page.evaluate(() => Boolean(globalThis.lumenLateModule)), Boolean);
   await openFile(page, OCTAHEDRON);
   await eventually(() => settled(page), (all) => shownTriangles(all) < 8);
-  assert((await save(page, "STL")).bytes.length > 84);
+  assert.deepEqual(await requests(workersOn(page, "pipeline")[0]), [], "the engine had it from the page");
 });
