@@ -3,10 +3,17 @@
 
 const address = new URL(`lumen-web_late.wasm${new URL(import.meta.url).search}`, import.meta.url);
 
+let arrive;
+const arrival = new Promise((resolve) => (arrive = resolve));
+
+/** Lets the program wait for it. */
+globalThis.lumenLateArrives = () => arrival;
+
 /** Fetches it for this program, and for the Workers that begin from now on (web/src/worker.rs). */
 export async function bring(program) {
-  if (!WebAssembly.Module.exports(program).some(({ name }) => name === "lateIsThere")) return;
-  globalThis.lumenLateModule ??= await WebAssembly.compileStreaming(fetch(address));
+  const isSplit = WebAssembly.Module.exports(program).some(({ name }) => name === "lateIsThere");
+  if (isSplit) globalThis.lumenLateModule ??= await WebAssembly.compileStreaming(fetch(address));
+  arrive();
 }
 
 /** It, by a request that is waited for. */

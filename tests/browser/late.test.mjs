@@ -4,8 +4,8 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { OCTAHEDRON, openFile, settled, shownTriangles, stlTriangles, workersOn } from "./app.mjs";
-import { COARSE, dist, eventually, launch, openApp } from "./browser.mjs";
+import { OCTAHEDRON, atEntry, openFile, settled, shownTriangles, stlTriangles, workersOn } from "./app.mjs";
+import { COARSE, dist, eventually, launch, openApp, press } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch()));
@@ -50,32 +50,20 @@ test("it is fetched once, after the first picture, and neither page nor engine w
   assert.deepEqual(wrong, []);
 });
 
-test("what is called before it has come waits for it", async (t) => {
+test("a file that is opened before it has come waits, and holds up nothing", async (t) => {
   const context = { ...COARSE, serviceWorkers: "block" };
   let arrive;
   const arrival = new Promise((resolve) => (arrive = resolve));
   const files = { [NAME]: served(() => arrival.then(whole)) };
   const { page, wrong } = await openApp(t, browser, { context, files });
-  await settled(page);
-  await openFile(page, OCTAHEDRON);
-  setTimeout(arrive, 1000);
-  await eventually(() => settled(page), (all) => shownTriangles(all) < 8);
-  const [asked] = await requests(workersOn(page, "pipeline")[0]);
-  assert(asked.waits, "the engine had to ask for it");
-  assert.deepEqual(wrong, []);
-});
-
-test("where it cannot be had when it is called, the page says so, and what is shown can be saved", async (t) => {
-  const context = { ...COARSE, serviceWorkers: "block" };
-  const files = { [NAME]: served(() => Promise.reject(new Error("no network"))) };
-  const { page } = await openApp(t, browser, { context, files });
   const shown = shownTriangles(await settled(page));
   await openFile(page, OCTAHEDRON);
-  await page.waitForSelector('html[data-state="failed"]', { state: "attached" });
-  assert.match(await page.locator("#failed-details").textContent(), /A part of Lumen could not be downloaded: 404 Not Found/);
-  const download = page.waitForEvent("download");
-  await page.getByRole("button", { name: /save/i }).click();
-  assert.equal(stlTriangles(await readFile(await (await download).path())), shown);
+  assert.equal(shownTriangles(await settled(page)), shown);
+  arrive();
+  await eventually(() => settled(page), (all) => shownTriangles(all) < 8);
+  const all = [...(await requests(page)), ...(await requests(workersOn(page, "pipeline")[0]))];
+  assert(all.length === 1 && !all[0].waits, JSON.stringify(all));
+  assert.deepEqual(wrong, []);
 });
 
 test("what could not be fetched at first is asked for again", async (t) => {
@@ -83,8 +71,28 @@ test("what could not be fetched at first is asked for again", async (t) => {
   const files = { [NAME]: served((count) => (count < 3 ? Promise.reject(new Error("no network")) : whole())) };
   const { page } = await openApp(t, browser, { context, files });
   await settled(page);
-  await eventually(() => page.evaluate(() => Boolean(globalThis.lumenLateModule)), Boolean);
   await openFile(page, OCTAHEDRON);
   await eventually(() => settled(page), (all) => shownTriangles(all) < 8);
-  assert.deepEqual(await requests(workersOn(page, "pipeline")[0]), [], "the engine had it from the page");
+  assert((await requests(page)).every(({ waits }) => !waits));
+});
+
+test("what is called before it has come asks for it at once, and where there is no network what is shown can be saved", async (t) => {
+  const context = { ...COARSE, serviceWorkers: "block" };
+  for (const isThere of [true, false]) {
+    const files = { [NAME]: served(() => Promise.reject(new Error("no network"))) };
+    const { page } = await openApp(t, browser, { context, files });
+    const shown = shownTriangles(await settled(page));
+    if (isThere) files[NAME] = { type: "application/wasm", body: whole() };
+    await press(page, "button", "Trial");
+    if (isThere) {
+      await atEntry(page);
+      assert((await requests(page)).some(({ waits }) => waits));
+      continue;
+    }
+    await page.waitForSelector('html[data-state="failed"]', { state: "attached" });
+    assert.match(await page.locator("#failed-details").textContent(), /A part of Lumen could not be downloaded: 404 Not Found/);
+    const download = page.waitForEvent("download");
+    await page.getByRole("button", { name: /save/i }).click();
+    assert.equal(stlTriangles(await readFile(await (await download).path())), shown);
+  }
 });

@@ -7,6 +7,14 @@ use wasm_bindgen::prelude::*;
 extern "C" {
     #[wasm_bindgen(js_name = lumenLate)]
     fn join_late(early: &JsValue);
+
+    #[wasm_bindgen(js_name = lumenLateArrives)]
+    async fn late_arrives();
+}
+
+/// Waits on the page until the late half has been fetched, so that what follows does not hold up the page.
+pub(crate) async fn arrived() {
+    late_arrives().await;
 }
 
 /// Brings the late half at once; what is left of a late function calls it where that half is not there.

@@ -26,7 +26,7 @@ use crate::job::{Pipeline, Trial};
 use crate::link::WorkerLink;
 use crate::scans::{self, ScanLine};
 use crate::texts::AllTexts;
-use crate::{address, files, store, video};
+use crate::{address, files, late, store, video};
 
 /// By what the page's field for what is typed is found.
 pub(crate) const TYPED: &str = "typed";
@@ -112,7 +112,10 @@ fn take(inbox: &Inbox, waker: &Waker, gather: impl Future<Output = Result<Gather
     let (inbox, waker) = (Rc::clone(inbox), waker.clone());
     spawn_local(async move {
         let news = match gather.await {
-            Ok(gathered) => gathered.news().await,
+            Ok(gathered) => {
+                late::arrived().await;
+                gathered.news().await
+            }
             Err(message) => Err(message),
         };
         let failed = |message| News::Event(PlatformEvent::Failed { message });

@@ -68,7 +68,7 @@ const LATE: [&str; 44] = [
 ];
 
 /// What the first picture of the sample calls, although it has a name of [`LATE`] in it.
-const EARLY: [&str; 26] = [
+const EARLY: [&str; 29] = [
     // Panels that are closed, messages, and what is compared, made and let go.
     " shim",
     "app::filling::Filling",
@@ -86,11 +86,14 @@ const EARLY: [&str; 26] = [
     "serde_core",
     "serde_json::ser",
     "view::TrialView",
-    // The sample, made and measured.
+    // The sample, made and measured, and saved where the page has stopped.
     "bezpath",
     "lumen_io::import",
+    "lumen_io::output",
+    "lumen_io::places",
     "lumen_io::report",
     "lumen_io::size",
+    "lumen_io::stl",
     "lumen_io::warnings",
     "lumen_io::weld",
     "lumen_mesh::mending::faults",
