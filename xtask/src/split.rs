@@ -68,7 +68,7 @@ const LATE: [&str; 44] = [
 ];
 
 /// What the first picture of the sample calls, although it has a name of [`LATE`] in it.
-const EARLY: [&str; 29] = [
+const EARLY: [&str; 30] = [
     // Panels that are closed, messages, and what is compared, made and let go.
     " shim",
     "app::filling::Filling",
@@ -96,6 +96,7 @@ const EARLY: [&str; 29] = [
     "lumen_io::stl",
     "lumen_io::warnings",
     "lumen_io::weld",
+    "lumen_io::write_output",
     "lumen_mesh::mending::faults",
     "lumen_mesh::mending::holes",
     "lumen_mesh::mending::wall",
@@ -110,6 +111,9 @@ const BRING: &str = "bring_late";
 
 /// The early half's export that says whether the late one is there: 0 or 1.
 const IS_THERE: &str = "lateIsThere";
+
+/// The late half has copies of early functions of at most so many instructions.
+const COPIED: u64 = 200;
 
 /// Splits a module of the page that wasm-bindgen has made, and writes the late half beside it.
 pub(crate) fn split(module: &Path, late: &Path) -> Result<()> {
@@ -137,7 +141,11 @@ fn halves(whole: &[u8], is_late: impl Fn(&str) -> bool) -> Result<(Vec<u8>, Vec<
     leave_stubs(&mut early, table, stubs.iter().map(|&(id, _)| id))?;
 
     strip(&mut late);
-    let items = import_all(&mut late, &early, pairs.into_iter().filter(|(id, _)| kept.contains(id)));
+    // A call from one half to the other takes longer than one within a half.
+    let is_copied =
+        |id| matches!(&early.funcs.get(id).kind, FunctionKind::Local(function) if function.size() <= COPIED);
+    let imported = pairs.into_iter().filter(|&(id, _)| kept.contains(&id) && !is_copied(id));
+    let items = import_all(&mut late, &early, imported);
     let flag = late.add_import_global(FROM, IS_THERE, ValType::I32, true, false).0;
     let mut start = FunctionBuilder::new(&mut late.types, &[], &[]);
     start.func_body().i32_const(1).global_set(flag);
@@ -296,4 +304,104 @@ fn import_all(
         globals.get_mut(id).kind = GlobalKind::Import(import(theirs.id().into(), id.into()));
     }
     items
+}
+
+#[cfg(test)]
+mod tests {
+    use std::process::Command;
+
+    use super::*;
+
+    /// A module of an early `go` and a late one that calls back, by the table and directly, each of which counts in memory.
+    fn whole() -> Vec<u8> {
+        let mut module = Module::with_config(ModuleConfig::new());
+        let memory = module.memories.add_local(false, false, 1, None, None);
+        module
+            .data
+            .add(walrus::DataKind::Active { memory, offset: ConstExpr::Value(Value::I32(8)) }, vec![40, 0, 0, 0]);
+        let table = module.tables.add_local(false, 2, Some(2), walrus::RefType::FUNCREF);
+        let log = module.types.add(&[ValType::I32], &[]);
+        let (log, _) = module.add_import_func("env", "log", log);
+        let bring = module.types.add(&[], &[]);
+        let (bring_it, _) = module.add_import_func("env", "bring", bring);
+
+        let function =
+            |module: &mut Module, name: &str, body: &dyn Fn(&mut walrus::InstrSeqBuilder<'_>, walrus::LocalId)| {
+                let argument = module.locals.add(ValType::I32);
+                let mut builder = FunctionBuilder::new(&mut module.types, &[ValType::I32], &[ValType::I32]);
+                builder.name(name.to_owned());
+                body(&mut builder.func_body(), argument);
+                builder.finish(vec![argument], &mut module.funcs)
+            };
+        let load = walrus::ir::LoadKind::I32 { atomic: false };
+        let at = |offset| walrus::ir::MemArg { align: 4, offset };
+        // What is in memory, and what it was asked for, more.
+        let count = function(&mut module, "early::count", &|body, argument| {
+            body.i32_const(0).load(memory, load, at(8)).local_get(argument).binop(walrus::ir::BinaryOp::I32Add);
+        });
+        let only = function(&mut module, "only::late::ones::call", &|body, argument| {
+            body.local_get(argument).call(log).local_get(argument).call(count);
+        });
+        let late = function(&mut module, "late::work", &|body, argument| {
+            body.local_get(argument).call(only);
+        });
+        let by_table = function(&mut module, "late::by_table", &|body, argument| {
+            body.local_get(argument).i32_const(1).binop(walrus::ir::BinaryOp::I32Add).call(late);
+        });
+        let ty = module.funcs.get(count).ty();
+        let go = function(&mut module, "go", &|body, argument| {
+            body.local_get(argument).call(late).i32_const(1).call_indirect(ty, table);
+        });
+        let active = ElementKind::Active { table, offset: ConstExpr::Value(Value::I32(0)) };
+        let element = module.elements.add(active, ElementItems::Functions(vec![count, by_table]));
+        module.tables.get_mut(table).elem_segments.insert(element);
+        let mut brings = FunctionBuilder::new(&mut module.types, &[], &[]);
+        brings.func_body().call(bring_it);
+        let brings = brings.finish(Vec::new(), &mut module.funcs);
+        module.exports.add(BRING, brings);
+        module.exports.add("go", go);
+        module.exports.add("count", count);
+        module.emit_wasm()
+    }
+
+    #[test]
+    fn the_halves_do_what_the_whole_does_and_the_late_one_is_asked_for_once() {
+        let folder = std::env::temp_dir().join(format!("lumen-split-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let whole = whole();
+        let (early, late) = halves(&whole, |name| name.starts_with("late::")).unwrap();
+        for (name, bytes) in [("whole", &whole), ("early", &early), ("late", &late)] {
+            std::fs::write(folder.join(name), bytes).unwrap();
+        }
+        let script = r#"
+            const compiled = (name) => new WebAssembly.Module(require("fs").readFileSync(name));
+            const said = [];
+            let early = null;
+            const env = {
+              log: (number) => said.push(`log ${number}`),
+              bring: () => { said.push("bring"); new WebAssembly.Instance(compiled("late"), { early }); },
+            };
+            const whole = new WebAssembly.Instance(compiled("whole"), { env }).exports;
+            said.push(whole.count(2), whole.go(1), whole.go(5));
+            early = new WebAssembly.Instance(compiled("early"), { env }).exports;
+            said.push(early.count(2), early.lateIsThere.value, early.go(1), early.lateIsThere.value, early.go(5));
+            console.log(said.join(", "));
+        "#;
+        let node = Command::new("node").args(["-e", script]).current_dir(&folder).output().unwrap();
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert!(node.status.success(), "{}", String::from_utf8_lossy(&node.stderr));
+        // 40 and what was asked for; the second call adds one to the first one's result.
+        let expected =
+            "log 1, log 42, log 5, log 46, 42, 82, 86, bring, log 1, log 42, log 5, log 46, 42, 0, 82, 1, 86";
+        assert_eq!(String::from_utf8_lossy(&node.stdout).trim(), expected);
+        // What only late functions call has gone with them; what all call stands in both where it is short.
+        assert!(
+            early.len() < whole.len() + 400
+                && !Module::from_buffer(&early)
+                    .unwrap()
+                    .funcs
+                    .iter()
+                    .any(|function| { function.name.as_deref().is_some_and(|name| name.starts_with("only")) })
+        );
+    }
 }
