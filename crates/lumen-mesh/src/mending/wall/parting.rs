@@ -1,5 +1,6 @@
 //! Takes the lumen out of walls that were found: tells the inner side of each from its outer side and its rims.
 
+use super::creases::Sheets;
 use super::regions::{Regions, across};
 use super::search::{FoundIn, PLACES};
 use super::visibility::{PARALLEL, Place, Visibility};
@@ -10,14 +11,14 @@ use crate::{Blend, Topology, compacted, used_vertices};
 /// A wall of a piece may be so many times its usual thickness.
 const THICKEST: f64 = 3.0;
 /// Of the places on a sheet that was found, those that line a closed space: more make it the inner side, fewer the outer.
-const INNER: f64 = 0.6;
-const OUTER: f64 = 0.4;
+pub(super) const INNER: f64 = 0.6;
+pub(super) const OUTER: f64 = 0.4;
 /// A sheet ends where it bends by more than 60 degrees, as at a rim: the cosine.
 const SMOOTH: f64 = 0.5;
 /// Triangles of a sheet that are asked one by one, at most.
 const MAX_ASKED: usize = 200_000;
 /// A sheet has this part of its piece's triangles at least.
-const MIN_SHEET: f64 = 0.01;
+pub(super) const MIN_SHEET: f64 = 0.01;
 
 /// What becomes of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,9 +84,34 @@ impl Visibility<'_> {
     /// Parts the inner side of a piece from its outer side and its rims.
     fn part(&self, piece: u32, is_walled: &[bool], change: &mut [SideChange]) -> Option<()> {
         let topology = Topology::new(self.mesh.positions.len(), &self.mesh.triangles);
-        let of_piece: Vec<u32> =
-            (0u32..).zip(&self.pieces.of_triangle).filter(|(_, p)| **p == piece).map(|(t, _)| t).collect();
-        let sheets = Regions::of(self.mesh, &topology, &of_piece, Some(SMOOTH), |t| is_walled[t as usize]);
+        let of_piece = self.triangles_of(piece);
+        let by_lining = self.sides_by_lining(&topology, &of_piece, is_walled);
+        let sides = by_lining.or_else(|| Some(Sheets::of(self, &topology, &of_piece)?.sides))?;
+        let side = |t: u32| sides[t as usize];
+        // What is on no sheet, in regions: one that only the inner side surrounds is a part of it.
+        let between = Regions::of(self.mesh, &topology, &of_piece, None, |t| side(t).is_none());
+        let mut touches = vec![[false; 2]; between.lists.len()];
+        for (region, list) in between.lists.iter().enumerate() {
+            for &t in list {
+                for other in across(self.mesh, &topology, t) {
+                    if let Some(is_inner) = side(other) {
+                        touches[region][usize::from(is_inner)] = true;
+                    }
+                }
+            }
+        }
+        for t in of_piece {
+            let is_inner = side(t).unwrap_or_else(|| {
+                between.of_triangle[t as usize].is_some_and(|region| touches[region as usize] == [false, true])
+            });
+            change[t as usize] = if is_inner { SideChange::Turns } else { SideChange::Goes };
+        }
+        Some(())
+    }
+
+    /// Which triangles of a piece are on its inner side, by the spaces that they line; `None` where that does not part them.
+    fn sides_by_lining(&self, topology: &Topology, of_piece: &[u32], is_walled: &[bool]) -> Option<Vec<Option<bool>>> {
+        let sheets = Regions::of(self.mesh, topology, of_piece, Some(SMOOTH), |t| is_walled[t as usize]);
         let least = (MIN_SHEET * of_piece.len() as f64).max(1.0) as usize;
         // Whether a triangle is of the inner side, where that is known.
         let mut sides: Vec<Option<bool>> = vec![None; self.mesh.triangles.len()];
@@ -107,34 +133,12 @@ impl Visibility<'_> {
             list.iter().zip(answers).for_each(|(&t, lines)| answer_of[t as usize] = Some(lines));
             for is_inner in [true, false] {
                 let agree = |t: u32| answer_of[t as usize] == Some(is_inner);
-                let parts = Regions::of(self.mesh, &topology, list, Some(SMOOTH), agree).lists;
+                let parts = Regions::of(self.mesh, topology, list, Some(SMOOTH), agree).lists;
                 for &t in parts.iter().filter(|part| part.len() >= least).flatten() {
                     sides[t as usize] = Some(is_inner);
                 }
             }
         }
-        if !sides.contains(&Some(true)) || !sides.contains(&Some(false)) {
-            return None;
-        }
-        let side = |t: u32| sides[t as usize];
-        // What is on no sheet, in regions: one that only the inner side surrounds is a part of it.
-        let between = Regions::of(self.mesh, &topology, &of_piece, None, |t| side(t).is_none());
-        let mut touches = vec![[false; 2]; between.lists.len()];
-        for (region, list) in between.lists.iter().enumerate() {
-            for &t in list {
-                for other in across(self.mesh, &topology, t) {
-                    if let Some(is_inner) = side(other) {
-                        touches[region][usize::from(is_inner)] = true;
-                    }
-                }
-            }
-        }
-        for t in of_piece {
-            let is_inner = side(t).unwrap_or_else(|| {
-                between.of_triangle[t as usize].is_some_and(|region| touches[region as usize] == [false, true])
-            });
-            change[t as usize] = if is_inner { SideChange::Turns } else { SideChange::Goes };
-        }
-        Some(())
+        (sides.contains(&Some(true)) && sides.contains(&Some(false))).then_some(sides)
     }
 }

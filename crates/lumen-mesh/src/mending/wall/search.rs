@@ -3,8 +3,9 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
+use super::creases::{MAY_FACE, Sheets};
 use super::visibility::{PARALLEL, Place, Visibility};
-use crate::triangle_area;
+use crate::{Topology, triangle_area};
 
 /// The tenth largest thickness of ten is at most so many times the tenth smallest.
 pub const SPREAD: f64 = 4.0;
@@ -14,10 +15,10 @@ const MIN_AREA: f64 = 0.05;
 /// Places on each.
 pub(super) const PLACES: usize = 256;
 /// Of a sheet's places, those that must see the other side, and of the other side's those that must see it.
-const MIN_SEEN: f64 = 0.8;
+pub(super) const MIN_SEEN: f64 = 0.8;
 const MANY_SEE: f64 = 0.6;
 /// The part of a piece that must line such a space.
-const MIN_INNER: f64 = 0.15;
+pub(super) const MIN_INNER: f64 = 0.15;
 
 /// A wall with two sides.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -85,7 +86,7 @@ impl Visibility<'_> {
         }
         for (piece, _, places) in &places {
             let is_known = found.iter().any(|found| found.outer == *piece);
-            if !is_known && let Some(wall) = self.within(places) {
+            if !is_known && let Some(wall) = self.within(places).or_else(|| self.creased(*piece, places)) {
                 found.push(FoundIn { outer: *piece, wall });
             }
         }
@@ -105,6 +106,17 @@ impl Visibility<'_> {
         }
         let across: Vec<f64> = on_inner.iter().filter_map(|place| Some(self.met(place, -place.normal)?.0)).collect();
         wall(ways, across, true)
+    }
+
+    /// The wall that a piece is whose sides come apart at creases.
+    fn creased(&self, piece: u32, places: &[Place]) -> Option<Wall> {
+        let facing = places.iter().filter(|place| self.faces_another_wall(place)).count();
+        if !MAY_FACE.contains(&(facing as f64 / places.len().max(1) as f64)) {
+            return None;
+        }
+        let topology = Topology::new(self.mesh.positions.len(), &self.mesh.triangles);
+        let (ways, across) = Sheets::of(self, &topology, &self.triangles_of(piece))?.across(self, places)?;
+        measured(ways, across, false)
     }
 
     /// The wall that a piece is by itself.
@@ -132,7 +144,12 @@ impl Visibility<'_> {
 }
 
 /// The wall of these thicknesses around a space so wide, unless they vary too much or it is too narrow.
-fn wall(mut ways: Vec<f64>, mut across: Vec<f64>, is_two_pieces: bool) -> Option<Wall> {
+fn wall(ways: Vec<f64>, across: Vec<f64>, is_two_pieces: bool) -> Option<Wall> {
+    measured(ways, across, is_two_pieces).filter(|wall| wall.thicker_mm <= SPREAD * wall.thinner_mm)
+}
+
+/// The same, however much they vary.
+fn measured(mut ways: Vec<f64>, mut across: Vec<f64>, is_two_pieces: bool) -> Option<Wall> {
     let mut at = |part: usize| {
         ways.sort_unstable_by(f64::total_cmp);
         ways.get(ways.len() * part / 10).copied()
@@ -140,6 +157,5 @@ fn wall(mut ways: Vec<f64>, mut across: Vec<f64>, is_two_pieces: bool) -> Option
     let (thinner_mm, thickness_mm, thicker_mm) = (at(1)?, at(5)?, at(9)?);
     across.sort_unstable_by(f64::total_cmp);
     let width = across.get(across.len() / 2).copied().unwrap_or(f64::INFINITY);
-    let is_even = thicker_mm <= SPREAD * thinner_mm && thickness_mm < width;
-    is_even.then_some(Wall { thickness_mm, thinner_mm, thicker_mm, is_two_pieces })
+    (thickness_mm < width).then_some(Wall { thickness_mm, thinner_mm, thicker_mm, is_two_pieces })
 }
