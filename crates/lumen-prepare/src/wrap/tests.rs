@@ -1,0 +1,98 @@
+use std::f64::consts::PI;
+
+use lumen_mesh::shapes::{icosphere, joined, tube, vertices_are_manifold};
+use lumen_mesh::split_mix::SplitMix64;
+use lumen_mesh::task::at_once;
+use lumen_mesh::{Vec3, boundary_loops, self_intersections, volume};
+
+use super::*;
+
+/// The wrap of `mesh`, which is a manifold whose triangles cross nowhere, with no point farther than `tolerance` from the
+/// points that `distance` is of; and how many ends it has.
+fn wrapped(mesh: &TriMesh, tolerance: f64, distance: impl Fn(DVec3) -> f64) -> (TriMesh, usize) {
+    let mut notes = Vec::new();
+    let found = at_once(wrap(mesh, tolerance, &mut notes, &Yielder::never())).unwrap();
+    assert_eq!(found, at_once(wrap(mesh, tolerance, &mut Vec::new(), &Yielder::never())).unwrap());
+    let topology = Topology::new(found.positions.len(), &found.triangles);
+    let counts = topology.edge_counts();
+    assert_eq!((counts.non_manifold, counts.flipped), (0, 0));
+    assert!(vertices_are_manifold(&found, &topology) && self_intersections(&found).is_empty());
+    let told = notes.iter().find_map(|note| match note {
+        Note::Wrapped { deviation_mm } => Some(*deviation_mm),
+        _ => None,
+    });
+    assert!(told.is_some_and(|told| told <= tolerance), "{notes:?}");
+    for t in 0..found.triangles.len() {
+        let [a, b, c] = found.corners(t).map(Vec3::as_dvec3);
+        for p in [a, b, c, (a + b + c) / 3.0] {
+            assert!(distance(p) <= tolerance, "{p} is {} away", distance(p));
+        }
+    }
+    let ends = boundary_loops(&topology).len();
+    (found, ends)
+}
+
+/// How far the vertices of `mesh` are from `wrap` at most.
+fn farthest(mesh: &TriMesh, wrap: &TriMesh) -> f64 {
+    let index = SurfaceIndex::new(&wrap.positions, &wrap.triangles);
+    let far = mesh.positions.iter().filter_map(|&p| index.nearest(p)).map(|nearest| f64::from(nearest.distance));
+    far.fold(0.0, f64::max)
+}
+
+/// Each triangle for itself, smaller by `part`, every second turned over.
+fn soup(mesh: &TriMesh, part: f32) -> TriMesh {
+    let mut soup = TriMesh::default();
+    let mut random = SplitMix64::new(3);
+    for t in 0..mesh.triangles.len() {
+        let corners = mesh.corners(t);
+        let middle = corners.iter().sum::<Vec3>() / 3.0;
+        let first = soup.positions.len() as u32;
+        soup.positions.extend(corners.map(|p| p.lerp(middle, part * random.unit() as f32)));
+        soup.triangles.push(if t % 2 == 0 { [first, first + 1, first + 2] } else { [first, first + 2, first + 1] });
+    }
+    soup
+}
+
+/// The distance from a tube along z of this radius and length.
+fn from_tube(p: DVec3, radius: f64, length: f64) -> f64 {
+    let beyond = (p.z - length).max(-p.z).max(0.0);
+    libm::hypot(libm::hypot(p.x, p.y) - radius, beyond)
+}
+
+fn volume_closed(mesh: &TriMesh) -> f64 {
+    volume(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles))
+}
+
+#[test]
+fn a_sphere_is_wrapped_within_the_tolerance_and_keeps_its_volume() {
+    let sphere = icosphere(4, 5.0, Vec3::new(1.0, 2.0, 3.0));
+    let (found, ends) = wrapped(&sphere, 0.3, |p| (p.distance(DVec3::new(1.0, 2.0, 3.0)) - 5.0).abs());
+    assert_eq!(ends, 0);
+    assert!(farthest(&sphere, &found) < 0.1, "{}", farthest(&sphere, &found));
+    let part = volume_closed(&found) / volume_closed(&sphere);
+    assert!((part - 1.0).abs() < 0.01, "{part}");
+    // Pieces inside are gone.
+    let nested = joined(&[sphere.clone(), icosphere(3, 2.0, Vec3::new(1.0, 2.0, 3.0))]);
+    assert_eq!(at_once(wrap(&nested, 0.3, &mut Vec::new(), &Yielder::never())).unwrap(), found);
+}
+
+#[test]
+fn an_open_tube_is_wrapped_as_its_lumen_and_stays_open() {
+    let (radius, length) = (2.0, 20.0);
+    let mesh = tube(48, 80, 20.0, |_| 2.0);
+    let (found, ends) = wrapped(&mesh, 0.3, |p| from_tube(p, radius, length));
+    assert_eq!(ends, 2);
+    assert!(farthest(&mesh, &found) < 0.3, "{}", farthest(&mesh, &found));
+    let part = volume_closed(&found) / (PI * radius * radius * (length - 2.0 * INSIDE * 0.3));
+    assert!((part - 1.0).abs() < 0.02, "{part}");
+}
+
+#[test]
+fn a_soup_with_gaps_is_wrapped_as_the_tube_that_it_is() {
+    let (radius, length) = (2.0, 20.0);
+    let mesh = soup(&tube(24, 40, 20.0, |_| 2.0), 0.2);
+    let (found, ends) = wrapped(&mesh, 0.3, |p| from_tube(p, radius, length));
+    assert_eq!(ends, 2);
+    let part = volume_closed(&found) / (PI * radius * radius * (length - 2.0 * INSIDE * 0.3));
+    assert!((part - 1.0).abs() < 0.04, "{part}");
+}
