@@ -28,6 +28,8 @@ const OF_FREE: f64 = 0.9;
 const FLAT: f64 = 0.011;
 /// Times for each end that extensions are tried.
 const ROUNDS: usize = 4;
+/// The part of the work that a wrap is.
+const WRAPPED: f32 = 0.5;
 
 /// What is done to a surface, from top to bottom.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -108,8 +110,9 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     plan.check()?;
     check_surface(mesh)?;
     let mut notes = Vec::new();
-    let wrapped = wrapped(mesh, plan, &mut notes, &yielder.part(0.0..0.05)).await?;
+    let wrapped = wrapped(mesh, plan, &mut notes, &yielder.part(0.0..WRAPPED)).await?;
     let mesh = wrapped.as_ref().unwrap_or(mesh);
+    let yielder = &yielder.part(if wrapped.is_some() { WRAPPED } else { 0.0 }..1.0);
     let mesh = vessel(mesh, plan.is_of_vessels(), &mut notes, &yielder.part(0.0..0.05)).await?;
     yielder.rest(0.05).await;
     let (mut mesh, crossing) = if plan.uncross {
