@@ -165,14 +165,15 @@ fn names(ui: &Ui, rect: Rect, heading: Rect, preparation: &Preparation, views: &
     let mut written = vec![heading.expand(NAMES_APART)];
     for patch in patches.skip(1).take(NAMED) {
         let centre = Vec3::from_array(patch.centre.map(|x| x as f32));
-        let Some(at) = seen(centre, &views.camera, rect).filter(|at| rect.shrink(24.0).contains(*at)) else { continue };
+        let Some(at) = seen(centre, &views.camera, rect).filter(|at| rect.contains(*at)) else { continue };
         let font = TextStyle::Small.resolve(ui.style());
         let size = ui.painter().layout_no_wrap(patch.name.clone(), font, Color32::PLACEHOLDER).size();
-        let mut place = Rect::from_center_size(at, size);
         // The name of an end at the border stays within it.
-        let inside = rect.shrink(NAMES_APART);
-        place = place.translate(vec2((inside.left() - place.left()).max(0.0), 0.0));
-        place = place.translate(vec2((inside.right() - place.right()).min(0.0), 0.0));
+        let inside = rect.shrink(NAMES_APART).shrink2(size / 2.0);
+        if inside.is_negative() {
+            continue;
+        }
+        let mut place = Rect::from_center_size(inside.clamp(at), size);
         // Each step down passes one of them for good.
         while let Some(above) = written.iter().find(|above| above.intersects(place)) {
             place = place.translate(vec2(0.0, above.bottom() - place.top() + NAMES_APART));

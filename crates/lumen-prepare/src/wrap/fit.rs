@@ -16,7 +16,7 @@ use super::grid::Outside;
 use crate::folds::clashing;
 
 /// The part of the tolerance by which the sides of a sheet stay away from it.
-const APART: f64 = 0.1;
+const APART: f64 = 0.4;
 /// Parts of the way that are tried.
 const WAYS: [f32; 4] = [1.0, 0.75, 0.5, 0.25];
 /// The cosine of the largest angle by which a triangle may turn.

@@ -1,11 +1,12 @@
 use std::f64::consts::PI;
 
-use lumen_mesh::shapes::{icosphere, joined, tube, vertices_are_manifold};
+use lumen_mesh::shapes::{icosphere, joined, square, tube, vertices_are_manifold};
 use lumen_mesh::split_mix::SplitMix64;
 use lumen_mesh::task::at_once;
 use lumen_mesh::{Vec3, boundary_loops, self_intersections, volume};
 
 use super::*;
+use crate::prepare::{Plan, prepare};
 
 /// The wrap of `mesh`, which is a manifold whose triangles cross nowhere, with no point farther than `tolerance` from the
 /// points that `distance` is of; and how many ends it has.
@@ -85,6 +86,61 @@ fn an_open_tube_is_wrapped_as_its_lumen_and_stays_open() {
     assert!(farthest(&mesh, &found) < 0.3, "{}", farthest(&mesh, &found));
     let part = volume_closed(&found) / (PI * radius * radius * (length - 2.0 * INSIDE * 0.3));
     assert!((part - 1.0).abs() < 0.02, "{part}");
+}
+
+#[test]
+fn two_tubes_that_cross_become_one_lumen() {
+    let (radius, length) = (2.0, 20.0);
+    let along = tube(48, 80, 20.0, |_| 2.0);
+    let mut across = along.clone();
+    across.positions.iter_mut().for_each(|p| *p = Vec3::new(p.z - 10.0, p.x, p.y + 10.0));
+    let mesh = joined(&[along, across]);
+    assert!(!self_intersections(&mesh).is_empty());
+    let from_either = |p: DVec3| {
+        let other = DVec3::new(p.y, p.z - 10.0, p.x + 10.0);
+        from_tube(p, radius, length).min(from_tube(other, radius, length))
+    };
+    let (found, ends) = wrapped(&mesh, 0.3, from_either);
+    assert_eq!(ends, 4);
+    // Steinmetz: what two cylinders have in common is 16 / 3 of the radius cubed.
+    let open = 2.0 * PI * radius * radius * (length - 2.0 * INSIDE * 0.3) - 16.0 / 3.0 * radius * radius * radius;
+    assert!((volume_closed(&found) / open - 1.0).abs() < 0.02, "{} of {open}", volume_closed(&found));
+}
+
+#[test]
+fn of_two_layers_the_outer_one_is_wrapped() {
+    let (radius, length) = (2.2, 20.0);
+    let mesh = joined(&[tube(48, 80, 20.0, |_| 2.0), tube(48, 80, 20.0, |_| 2.2)]);
+    let (found, ends) = wrapped(&mesh, 0.3, |p| from_tube(p, radius, length));
+    assert_eq!(ends, 2);
+    let part = volume_closed(&found) / (PI * radius * radius * (length - 2.0 * INSIDE * 0.3));
+    assert!((part - 1.0).abs() < 0.02, "{part}");
+}
+
+#[test]
+fn a_sheet_gets_two_sides_and_a_wrap_that_is_too_fine_says_what_may_do() {
+    let mesh = square(20, 10.0, 0.0);
+    let away = |p: DVec3| (p.abs() - DVec3::new(5.0, 5.0, 0.0)).max(DVec3::ZERO).length();
+    let middle = mesh.bounds().centre().as_dvec3();
+    let (found, ends) = wrapped(&mesh, 0.4, |p| away(p - middle));
+    assert_eq!(ends, 0);
+    assert!((volume_closed(&found) / (100.0 * 0.4) - 0.8).abs() < 0.25, "{}", volume_closed(&found));
+    let wrap = |tolerance| at_once(wrap(&mesh, tolerance, &mut Vec::new(), &Yielder::never()));
+    assert!(matches!(wrap(1e-3), Err(PrepareError::Wrap { least_mm, .. }) if least_mm > 1e-3 && wrap(0.1).is_ok()));
+}
+
+#[test]
+fn a_wrapped_tube_has_the_ids_of_its_ends_whatever_comes_after() {
+    let mesh = soup(&tube(24, 40, 20.0, |_| 2.0), 0.2);
+    let flow = Plan { wrap: Some(0.3), ..Plan::flow() };
+    for plan in [Plan { wrap: Some(0.3), ..Plan::default() }, flow] {
+        let found = at_once(prepare(&mesh, &plan, &Yielder::never())).unwrap();
+        assert!(found.fate.is_ready(), "{:?}", found.fate);
+        let patches: Vec<(u32, &str)> = found.surface.patches.iter().map(|p| (p.id, p.name.as_str())).collect();
+        assert_eq!(patches, [(1, "wall"), (2, "inlet"), (3, "outlet_1")]);
+        let areas = found.surface.patches[1..].iter().map(|patch| patch.area_mm2 / (PI * 4.0));
+        assert!(areas.clone().all(|part| (part - 1.0).abs() < 0.06), "{:?}", areas.collect::<Vec<_>>());
+    }
 }
 
 #[test]

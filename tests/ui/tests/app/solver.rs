@@ -76,7 +76,7 @@ fn a_level_is_made_ready_shown_named_and_saved() {
 
 #[test]
 fn the_names_of_ends_stand_neither_on_the_heading_nor_on_each_other() {
-    let (mut harness, _) = seen(DESKTOP);
+    let (mut harness, _) = seen(|| app(DESKTOP));
     settle(&mut harness);
     press(&mut harness, Role::DisclosureTriangle, "For a solver");
     press(&mut harness, Role::Button, "Make ready");
@@ -117,7 +117,7 @@ fn a_wrap_is_asked_for_with_its_tolerance() {
     settle(&mut harness);
     press(&mut harness, Role::CheckBox, "Wrap it watertight");
     assert_eq!(preparation(&harness).plan, Plan { wrap: Some(0.5), ..Plan::flow() });
-    assert!(harness.query_by_role_and_label(Role::SpinButton, "Tolerance").is_some());
+    assert!(harness.query_by_role_and_label(Role::Slider, "Tolerance").is_some());
     press(&mut harness, Role::Button, "Make ready");
     settle(&mut harness);
     let made = preparation(&harness).made.as_ref().unwrap();
