@@ -110,7 +110,7 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     plan.check()?;
     check_surface(mesh)?;
     let mut notes = Vec::new();
-    let wrapped = wrapped(mesh, plan, &mut notes, &yielder.part(0.0..WRAPPED)).await?;
+    let wrapped = wrapped(mesh, plan, plan.is_of_vessels(), &mut notes, &yielder.part(0.0..WRAPPED)).await?;
     let mesh = wrapped.as_ref().unwrap_or(mesh);
     let yielder = &yielder.part(if wrapped.is_some() { WRAPPED } else { 0.0 }..1.0);
     let mesh = vessel(mesh, plan.is_of_vessels(), &mut notes, &yielder.part(0.0..0.05)).await?;
@@ -173,17 +173,21 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     Ok(Prepared { surface, fate, notes, crossing, remeshed })
 }
 
-/// The wrap of a surface, where one is asked for.
+/// The wrap of a surface, where one is asked for: of a wall that of its lumen, where it `is_of_vessels` and can be told already.
 pub(crate) async fn wrapped(
     mesh: &TriMesh,
     plan: &Plan,
+    is_of_vessels: bool,
     notes: &mut Vec<Note>,
     yielder: &Yielder,
 ) -> Result<Option<TriMesh>, PrepareError> {
-    match plan.wrap {
-        Some(tolerance_mm) => wrap(mesh, tolerance_mm, notes, yielder).await.map(Some),
-        None => Ok(None),
-    }
+    let Some(tolerance_mm) = plan.wrap else { return Ok(None) };
+    let lumen = if is_of_vessels {
+        without_wall(split(mesh).mesh, notes, &yielder.part(0.0..0.1)).await.ok()
+    } else {
+        None
+    };
+    wrap(lumen.as_ref().unwrap_or(mesh), tolerance_mm, notes, &yielder.part(0.1..1.0)).await.map(Some)
 }
 
 /// What of a surface is prepared: its largest piece, of a wall the lumen where it `is_of_vessels`.

@@ -31,7 +31,7 @@ use lumen_mesh::mending::split::split;
 use lumen_mesh::mending::weld::weld_in_slices;
 use lumen_mesh::task::Yielder;
 use lumen_mesh::winding::make_consistent;
-use lumen_mesh::{SurfaceIndex, Topology, TriMesh, components, reach};
+use lumen_mesh::{SurfaceIndex, Topology, TriMesh, boundary_loops, components, reach};
 use lumen_volume::MarchingCubes;
 
 use self::fit::fit;
@@ -120,18 +120,23 @@ async fn closed(mesh: &TriMesh, tolerance_mm: f64, notes: &mut Vec<Note>, yielde
     let found = holes(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
     yielder.rest(0.5).await;
     // What is narrower than the tolerance is closed by the flood, and needs no more than to be no hole.
-    found.iter().filter(|hole| hole.diameter_mm <= tolerance_mm).for_each(|hole| fan(&mut mesh, hole));
+    for hole in found.iter().filter(|hole| hole.diameter_mm <= tolerance_mm) {
+        fan(&mut mesh, &hole.rim, hole.centre.as_dvec3());
+    }
     let filled = fill_in_slices(&mesh, f64::INFINITY, &yielder.part(0.5..1.0)).await;
     if filled.filled > 0 {
         notes.push(Note::Filled { count: filled.filled });
     }
     let mut mesh = filled.mesh;
+    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    let is_edge = |hole: &Hole| hole.opening == Opening::Edge;
+    let edges: Vec<Vec<u32>> = holes(&mesh, &topology).into_iter().filter(is_edge).map(|hole| hole.rim).collect();
     let mut lids = Vec::new();
-    for hole in &holes(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles)) {
-        if hole.opening != Opening::Edge {
-            lids.extend(Lid::of(&mesh, hole));
-            fan(&mut mesh, hole);
-        }
+    // A ragged rim that passes a vertex twice is no hole, and lets the flood in.
+    for rim in boundary_loops(&topology).iter().filter(|rim| !edges.contains(rim)) {
+        let points: Vec<DVec3> = rim.iter().map(|&v| mesh.positions[v as usize].as_dvec3()).collect();
+        lids.extend(Lid::of(&points));
+        fan(&mut mesh, rim, points.iter().sum::<DVec3>() / points.len() as f64);
     }
     lids.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
     let mut kept: Vec<Lid> = Vec::new();
@@ -144,18 +149,18 @@ async fn closed(mesh: &TriMesh, tolerance_mm: f64, notes: &mut Vec<Note>, yielde
     Closed { mesh, lids: kept }
 }
 
-/// Closes a hole by triangles around the mean of its rim.
-fn fan(mesh: &mut TriMesh, Hole { rim, centre, .. }: &Hole) {
+/// Closes a rim by triangles around a point.
+fn fan(mesh: &mut TriMesh, rim: &[u32], middle: DVec3) {
     let apex = mesh.positions.len() as u32;
-    mesh.positions.push(*centre);
+    mesh.positions.push(middle.as_vec3());
     mesh.triangles.extend((0..rim.len()).map(|i| [rim[(i + 1) % rim.len()], rim[i], apex]));
 }
 
 impl Lid {
-    fn of(mesh: &TriMesh, hole: &Hole) -> Option<Self> {
-        let points: Vec<DVec3> = hole.rim.iter().map(|&v| mesh.positions[v as usize].as_dvec3()).collect();
-        let (mean, normal) = plane(&points)?;
-        let (area, centre) = area_and_middle(&points, mean, normal);
+    /// The lid on a rim through these points; `None` where it encloses no area.
+    fn of(points: &[DVec3]) -> Option<Self> {
+        let (mean, normal) = plane(points)?;
+        let (area, centre) = area_and_middle(points, mean, normal);
         let heights = points.iter().map(|&p| (p - centre).dot(normal));
         let (low, high) = heights.fold((0.0f64, 0.0f64), |(low, high), height| (low.min(height), high.max(height)));
         Some(Self { centre, normal, area_mm2: area.abs(), inwards_mm: -low, outwards_mm: high })

@@ -3,7 +3,7 @@ use std::f64::consts::PI;
 use lumen_mesh::shapes::{icosphere, joined, square, tube, vertices_are_manifold};
 use lumen_mesh::split_mix::SplitMix64;
 use lumen_mesh::task::at_once;
-use lumen_mesh::{Vec3, boundary_loops, self_intersections, volume};
+use lumen_mesh::{Vec3, self_intersections, volume};
 
 use super::*;
 use crate::prepare::{Plan, prepare};
