@@ -106,7 +106,8 @@ fn around(text: &str) -> Result<f64, String> {
 /// A number of mm, more than 0.
 fn tolerance(text: &str) -> Result<f64, String> {
     let mm = text.strip_suffix("mm").unwrap_or(text).trim().parse().ok();
-    mm.filter(|mm: &f64| mm.is_finite() && *mm > 0.0).ok_or_else(|| format!("{text} is no tolerance in mm, as 0.3mm is"))
+    mm.filter(|mm: &f64| mm.is_finite() && *mm > 0.0)
+        .ok_or_else(|| format!("{text} is no tolerance in mm, as 0.3mm is"))
 }
 
 /// A number of radii, or of mm where that stands behind it.
@@ -218,7 +219,9 @@ impl Prepare {
             None => {}
         }
         if plan == Plan::default() {
-            return Err(misuse("nothing is asked for: say --wrap, --uncross, --clip, --clip-end, --extend, --cap or --remesh"));
+            return Err(misuse(
+                "nothing is asked for: say --wrap, --uncross, --clip, --clip-end, --extend, --cap or --remesh",
+            ));
         }
         Ok(plan)
     }

@@ -45,32 +45,38 @@ impl Preparing {
 
     /// Of a surface with these arrays.
     fn begun(id: u64, mesh: Arc<TriMesh>, plan: Plan, arrays: Option<Arc<Vec<Array>>>) -> Self {
-        Self::Begun(id, Running::new(|yielder| async move {
-            let found = match prepare(&mesh, &plan, &yielder.part(0.0..PREPARED)).await {
-                Ok(found) => found,
-                Err(error) => return (Event::Prepared(Box::new(SolverReady { id, outcome: Err(error) })), None),
-            };
-            let Prepared { surface, fate, notes, crossing, remeshed } = found;
-            let arrays = match arrays {
-                Some(arrays) if !arrays.is_empty() => {
-                    let part = yielder.part(PREPARED..1.0);
-                    Some(carry_over(arrays.to_vec(), &mesh, &surface.mesh, &part).await)
-                }
-                known => known.map(|_| Vec::new()),
-            };
-            let Patched { mesh, of_triangle, patches } = surface.clone();
-            let ready = Ready { mesh: Arc::new(mesh), of_triangle, patches, fate, notes, crossing, remeshed };
-            let event = Event::Prepared(Box::new(SolverReady { id, outcome: Ok(ready) }));
-            (event, Some(Made { id, surface, arrays }))
-        }))
+        Self::Begun(
+            id,
+            Running::new(|yielder| async move {
+                let found = match prepare(&mesh, &plan, &yielder.part(0.0..PREPARED)).await {
+                    Ok(found) => found,
+                    Err(error) => return (Event::Prepared(Box::new(SolverReady { id, outcome: Err(error) })), None),
+                };
+                let Prepared { surface, fate, notes, crossing, remeshed } = found;
+                let arrays = match arrays {
+                    Some(arrays) if !arrays.is_empty() => {
+                        let part = yielder.part(PREPARED..1.0);
+                        Some(carry_over(arrays.to_vec(), &mesh, &surface.mesh, &part).await)
+                    }
+                    known => known.map(|_| Vec::new()),
+                };
+                let Patched { mesh, of_triangle, patches } = surface.clone();
+                let ready = Ready { mesh: Arc::new(mesh), of_triangle, patches, fate, notes, crossing, remeshed };
+                let event = Event::Prepared(Box::new(SolverReady { id, outcome: Ok(ready) }));
+                (event, Some(Made { id, surface, arrays }))
+            }),
+        )
     }
 
     /// Where the ends of a surface are cut.
     pub(super) fn cuts(id: u64, mesh: Arc<TriMesh>, plan: Plan) -> Self {
-        Self::Begun(id, Running::new(|yielder| async move {
-            let outcome = cuts(&mesh, &plan, &yielder).await.map(PlannedCuts::from);
-            (Event::CutsPlanned(Box::new(CutsPlanned { id, outcome })), None)
-        }))
+        Self::Begun(
+            id,
+            Running::new(|yielder| async move {
+                let outcome = cuts(&mesh, &plan, &yielder).await.map(PlannedCuts::from);
+                (Event::CutsPlanned(Box::new(CutsPlanned { id, outcome })), None)
+            }),
+        )
     }
 
     /// Works for about `budget`; whether there is more to do. What comes of it is put into `made` and told. `arrays` finds those

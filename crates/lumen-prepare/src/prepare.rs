@@ -182,11 +182,8 @@ pub(crate) async fn wrapped(
     yielder: &Yielder,
 ) -> Result<Option<TriMesh>, PrepareError> {
     let Some(tolerance_mm) = plan.wrap else { return Ok(None) };
-    let lumen = if is_of_vessels {
-        without_wall(split(mesh).mesh, notes, &yielder.part(0.0..0.1)).await.ok()
-    } else {
-        None
-    };
+    let lumen =
+        if is_of_vessels { without_wall(split(mesh).mesh, notes, &yielder.part(0.0..0.1)).await.ok() } else { None };
     wrap(lumen.as_ref().unwrap_or(mesh), tolerance_mm, notes, &yielder.part(0.1..1.0)).await.map(Some)
 }
 

@@ -120,9 +120,7 @@ impl Outside {
                 for x in of_blocks(0) {
                     let first = [x * SIDE, y * SIDE, z * SIDE];
                     let middle = DVec3::from(first.map(|i| i as f64 + 0.5 * (SIDE - 1) as f64));
-                    let inner = |axis: usize| {
-                        low[axis].max(first[axis])..(high[axis] + 1).min(first[axis] + SIDE)
-                    };
+                    let inner = |axis: usize| low[axis].max(first[axis])..(high[axis] + 1).min(first[axis] + SIDE);
                     let is_large = inner(0).len() * inner(1).len() * inner(2).len() > 64;
                     if is_large && distance(middle) > to_corner + reach {
                         continue;
