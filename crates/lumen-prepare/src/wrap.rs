@@ -14,7 +14,7 @@
 //!
 //! and no vessel end may let the flood in: rims are welded within the tolerance first, holes filled
 //! (`lumen_mesh::mending`), and each open end of a vessel gets a lid for as long as the flood runs. An end that lies in a plane,
-//! within half of the tolerance, is cut open again just inside of its rim; any other stays closed.
+//! within half of the tolerance, is cut open again just inside of its rim; of any other the lid is taken off.
 //!
 //! What lies inside is gone, and gaps and crevices narrower than the tolerance are closed. A wall with two sides whose lumen can
 //! be reached keeps both. An open end of a soup whose triangles are farther apart than the tolerance is not known for one: the
@@ -23,22 +23,25 @@
 mod fit;
 mod grid;
 
+use std::ops::Range;
+
 use glam::DVec3;
 use lumen_mesh::cut::area_and_middle;
+use lumen_mesh::mending::Faults;
 use lumen_mesh::mending::fill::fill_in_slices;
 use lumen_mesh::mending::holes::{Hole, Opening, holes};
 use lumen_mesh::mending::split::split;
 use lumen_mesh::mending::weld::weld_in_slices;
 use lumen_mesh::task::Yielder;
 use lumen_mesh::winding::make_consistent;
-use lumen_mesh::{SurfaceIndex, Topology, TriMesh, boundary_loops, components, reach};
+use lumen_mesh::{SurfaceIndex, Topology, TriMesh, Vec3, boundary_loops, components, reach};
 use lumen_volume::MarchingCubes;
 
 use self::fit::fit;
 use self::grid::{Inside, Outside, least_step};
 use crate::cuts::cut_at;
 use crate::ends::{EndPlane, plane};
-use crate::notes::{Note, PrepareError, Reason};
+use crate::notes::{Note, PrepareError};
 
 /// The part of the tolerance within which the flood is stopped, and the distance between the points of its grid.
 const REACH: f64 = 0.5;
@@ -58,6 +61,8 @@ struct Lid {
     /// How far the rim reaches to either side of its plane, in mm.
     inwards_mm: f64,
     outwards_mm: f64,
+    /// Its triangles.
+    triangles: Range<u32>,
 }
 
 impl Lid {
@@ -73,7 +78,7 @@ impl Lid {
     }
 }
 
-/// A closed surface within `tolerance_mm` of `mesh`, open at the ends of vessels that lie in a plane.
+/// A closed surface within `tolerance_mm` of `mesh`, open at the ends of vessels.
 ///
 /// # Errors
 /// [`PrepareError::Wrap`], where that takes too many points or triangles; [`PrepareError::Empty`].
@@ -99,8 +104,49 @@ pub async fn wrap(
     let found = reach(&mesh, &index, 0.0, &yielder.part(0.9..0.98)).await;
     let deviation_mm = found.map_or(0.0, |found| found.farthest.distance);
     notes.push(Note::Wrapped { deviation_mm });
-    let planes = lids.iter().filter_map(|lid| lid.plane(&outside, tolerance_mm, notes)).collect::<Vec<_>>();
-    Ok(cut_at(mesh, &planes, notes).0)
+    let seen = |lid: &Lid| lid.plane(&outside, tolerance_mm);
+    let (flat, ragged): (Vec<_>, Vec<_>) =
+        lids.iter().filter_map(|lid| Some((lid, seen(lid)?))).partition(|(lid, _)| lid.is_flat(tolerance_mm));
+    let planes: Vec<EndPlane> = flat.into_iter().map(|(_, plane)| plane).collect();
+    let mesh = cut_at(mesh, &planes, notes).0;
+    if ragged.is_empty() {
+        return Ok(mesh);
+    }
+    // Where a plane would take more than the tolerance the lid itself comes off.
+    let is_of_lid = |t: usize| {
+        let middle = mesh.corners(t).iter().sum::<Vec3>() / 3.0;
+        let nearest = index.nearest(middle);
+        nearest.is_some_and(|nearest| ragged.iter().any(|(lid, _)| lid.triangles.contains(&nearest.triangle)))
+    };
+    Ok(without(&mesh, is_of_lid))
+}
+
+/// The surface without some of its triangles, those at vertices where what is left would only touch, and crumbs.
+fn without(mesh: &TriMesh, goes: impl Fn(usize) -> bool) -> TriMesh {
+    let mut stay: Vec<usize> = (0..mesh.triangles.len()).filter(|&t| !goes(t)).collect();
+    let triangles = |stay: &[usize]| stay.iter().map(|&t| mesh.triangles[t]).collect::<Vec<_>>();
+    let mut open = TriMesh { positions: mesh.positions.clone(), triangles: triangles(&stay) };
+    loop {
+        let topology = Topology::new(open.positions.len(), &open.triangles);
+        let touching = Faults::of(&open, &topology).non_manifold_vertices;
+        if touching.is_empty() {
+            break;
+        }
+        stay.retain(|&t| mesh.triangles[t].iter().all(|v| touching.binary_search(v).is_err()));
+        open.triangles = triangles(&stay);
+    }
+    let before = components(mesh.positions.len(), &mesh.triangles);
+    let after = components(open.positions.len(), &open.triangles);
+    // For each piece of before its largest part.
+    let mut largest = vec![u32::MAX; before.count()];
+    let size = |part: u32| after.triangle_counts.get(part as usize).copied().unwrap_or(0);
+    for (&t, &part) in stay.iter().zip(&after.of_triangle) {
+        let largest = &mut largest[before.of_triangle[t] as usize];
+        if size(part) > size(*largest) {
+            *largest = part;
+        }
+    }
+    open.filtered(|t| largest.contains(&after.of_triangle[t]))
 }
 
 /// What is to be wrapped, without openings wider than the tolerance.
@@ -135,8 +181,9 @@ async fn closed(mesh: &TriMesh, tolerance_mm: f64, notes: &mut Vec<Note>, yielde
     // A ragged rim that passes a vertex twice is no hole, and lets the flood in.
     for rim in boundary_loops(&topology).iter().filter(|rim| !edges.contains(rim)) {
         let points: Vec<DVec3> = rim.iter().map(|&v| mesh.positions[v as usize].as_dvec3()).collect();
-        lids.extend(Lid::of(&points));
+        let first = mesh.triangles.len() as u32;
         fan(&mut mesh, rim, points.iter().sum::<DVec3>() / points.len() as f64);
+        lids.extend(Lid::of(&points, first..mesh.triangles.len() as u32));
     }
     lids.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
     let mut kept: Vec<Lid> = Vec::new();
@@ -157,27 +204,28 @@ fn fan(mesh: &mut TriMesh, rim: &[u32], middle: DVec3) {
 }
 
 impl Lid {
-    /// The lid on a rim through these points; `None` where it encloses no area.
-    fn of(points: &[DVec3]) -> Option<Self> {
+    /// The lid of these triangles on a rim through these points; `None` where it encloses no area.
+    fn of(points: &[DVec3], triangles: Range<u32>) -> Option<Self> {
         let (mean, normal) = plane(points)?;
         let (area, centre) = area_and_middle(points, mean, normal);
         let heights = points.iter().map(|&p| (p - centre).dot(normal));
         let (low, high) = heights.fold((0.0f64, 0.0f64), |(low, high), height| (low.min(height), high.max(height)));
-        Some(Self { centre, normal, area_mm2: area.abs(), inwards_mm: -low, outwards_mm: high })
+        Some(Self { centre, normal, area_mm2: area.abs(), inwards_mm: -low, outwards_mm: high, triangles })
     }
 
-    /// Where the end is cut open; `None` where nothing of it is to be seen from outside, or it lies in no plane.
-    fn plane(&self, outside: &Outside, tolerance_mm: f64, notes: &mut Vec<Note>) -> Option<EndPlane> {
-        let before = |normal: DVec3| outside.has(self.centre + normal * (self.outwards_mm + 2.0 * tolerance_mm));
-        let (normal, inwards_mm) = match (before(self.normal), before(-self.normal)) {
-            (true, false) => (self.normal, self.inwards_mm),
-            (false, true) => (-self.normal, self.outwards_mm),
+    fn is_flat(&self, tolerance_mm: f64) -> bool {
+        self.inwards_mm + self.outwards_mm <= FLAT * tolerance_mm
+    }
+
+    /// Where the end is cut open; `None` where it is not seen from outside on one side alone.
+    fn plane(&self, outside: &Outside, tolerance_mm: f64) -> Option<EndPlane> {
+        let before = |normal: DVec3, mm: f64| outside.has(self.centre + normal * (mm + 2.0 * tolerance_mm));
+        let both = [before(self.normal, self.outwards_mm), before(-self.normal, self.inwards_mm)];
+        let (normal, inwards_mm) = match both {
+            [true, false] => (self.normal, self.inwards_mm),
+            [false, true] => (-self.normal, self.outwards_mm),
             _ => return None,
         };
-        if self.inwards_mm + self.outwards_mm > FLAT * tolerance_mm {
-            notes.push(Note::AsWall { at: self.centre.as_vec3().to_array(), why: Reason::NotFlat });
-            return None;
-        }
         let arc_mm = inwards_mm + INSIDE * tolerance_mm;
         let (centre, radius_mm) = (self.centre - normal * arc_mm, self.radius_mm());
         Some(EndPlane { branch: None, at_end: false, centre, normal, radius_mm, roundness: 1.0, arc_mm })

@@ -118,6 +118,26 @@ fn of_two_layers_the_outer_one_is_wrapped() {
 }
 
 #[test]
+fn ragged_ends_stay_open_and_are_cut_square_after() {
+    // Every second ring of triangles at the ends is gone in part.
+    let whole = tube(24, 80, 40.0, |_| 2.0);
+    let mesh = whole.filtered(|t| {
+        let middle = whole.corners(t).iter().sum::<Vec3>() / 3.0;
+        let from_end = middle.z.min(40.0 - middle.z);
+        from_end > 1.5 + libm::atan2f(middle.y, middle.x).abs() / 2.0 || t % 5 == 0 && from_end > 1.0
+    });
+    // What is filled between the rags is flat.
+    let (found, ends) = wrapped(&mesh, 0.3, |p| from_tube(p, 2.0, 40.0) - 0.2);
+    assert_eq!((ends, components(found.positions.len(), &found.triangles).count()), (2, 1));
+    let plan = Plan { wrap: Some(0.3), ..Plan::flow() };
+    let found = at_once(prepare(&mesh, &plan, &Yielder::never())).unwrap();
+    assert!(found.fate.is_ready() && found.surface.patches.len() == 3, "{:?} {:?}", found.fate, found.notes);
+    for patch in &found.surface.patches[1..] {
+        assert!((patch.area_mm2 / (PI * 4.0) - 1.0).abs() < 0.06, "{patch:?}");
+    }
+}
+
+#[test]
 fn a_sheet_gets_two_sides_and_a_wrap_that_is_too_fine_says_what_may_do() {
     let mesh = square(20, 10.0, 0.0);
     let away = |p: DVec3| (p.abs() - DVec3::new(5.0, 5.0, 0.0)).max(DVec3::ZERO).length();
