@@ -184,7 +184,8 @@ pub(crate) async fn wrapped(
     let Some(tolerance_mm) = plan.wrap else { return Ok(None) };
     let lumen =
         if is_of_vessels { without_wall(split(mesh).mesh, notes, &yielder.part(0.0..0.1)).await.ok() } else { None };
-    wrap(lumen.as_ref().unwrap_or(mesh), tolerance_mm, notes, &yielder.part(0.1..1.0)).await.map(Some)
+    let part = yielder.part(0.1..1.0);
+    wrap(lumen.as_ref().unwrap_or(mesh), tolerance_mm, plan.clips(), notes, &part).await.map(Some)
 }
 
 /// What of a surface is prepared: its largest piece, of a wall the lumen where it `is_of_vessels`.

@@ -14,7 +14,8 @@
 //!
 //! and no vessel end may let the flood in: rims are welded within the tolerance first, holes filled
 //! (`lumen_mesh::mending`), and each open end of a vessel gets a lid for as long as the flood runs. An end that lies in a plane,
-//! within half of the tolerance, is cut open again just inside of its rim; of any other the lid is taken off.
+//! within half of the tolerance, is cut open again just inside of its rim; of any other the lid is taken off where ends are
+//! cut after.
 //!
 //! What lies inside is gone, and gaps and crevices narrower than the tolerance are closed. A wall with two sides whose lumen can
 //! be reached keeps both. An open end of a soup whose triangles are farther apart than the tolerance is not known for one: the
@@ -41,7 +42,7 @@ use self::fit::fit;
 use self::grid::{Inside, Outside, least_step};
 use crate::cuts::cut_at;
 use crate::ends::{EndPlane, plane};
-use crate::notes::{Note, PrepareError};
+use crate::notes::{Note, PrepareError, Reason};
 
 /// The part of the tolerance within which the flood is stopped, and the distance between the points of its grid.
 const REACH: f64 = 0.5;
@@ -78,13 +79,15 @@ impl Lid {
     }
 }
 
-/// A closed surface within `tolerance_mm` of `mesh`, open at the ends of vessels.
+/// A closed surface within `tolerance_mm` of `mesh`, open at the ends of vessels: at those that lie in no plane only where
+/// they `are_cut` after, else they stay closed.
 ///
 /// # Errors
 /// [`PrepareError::Wrap`], where that takes too many points or triangles; [`PrepareError::Empty`].
 pub async fn wrap(
     mesh: &TriMesh,
     tolerance_mm: f64,
+    are_cut: bool,
     notes: &mut Vec<Note>,
     yielder: &Yielder,
 ) -> Result<TriMesh, PrepareError> {
@@ -109,7 +112,11 @@ pub async fn wrap(
         lids.iter().filter_map(|lid| Some((lid, seen(lid)?))).partition(|(lid, _)| lid.is_flat(tolerance_mm));
     let planes: Vec<EndPlane> = flat.into_iter().map(|(_, plane)| plane).collect();
     let mesh = cut_at(mesh, &planes, notes).0;
-    if ragged.is_empty() {
+    if !are_cut {
+        let at = |lid: &Lid| lid.centre.as_vec3().to_array();
+        notes.extend(ragged.iter().map(|(lid, _)| Note::AsWall { at: at(lid), why: Reason::NotFlat }));
+    }
+    if !are_cut || ragged.is_empty() {
         return Ok(mesh);
     }
     // Where a plane would take more than the tolerance the lid itself comes off.

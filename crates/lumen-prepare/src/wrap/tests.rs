@@ -12,8 +12,8 @@ use crate::prepare::{Plan, prepare};
 /// points that `distance` is of; and how many ends it has.
 fn wrapped(mesh: &TriMesh, tolerance: f64, distance: impl Fn(DVec3) -> f64) -> (TriMesh, usize) {
     let mut notes = Vec::new();
-    let found = at_once(wrap(mesh, tolerance, &mut notes, &Yielder::never())).unwrap();
-    assert_eq!(found, at_once(wrap(mesh, tolerance, &mut Vec::new(), &Yielder::never())).unwrap());
+    let found = at_once(wrap(mesh, tolerance, true, &mut notes, &Yielder::never())).unwrap();
+    assert_eq!(found, at_once(wrap(mesh, tolerance, true, &mut Vec::new(), &Yielder::never())).unwrap());
     let topology = Topology::new(found.positions.len(), &found.triangles);
     let counts = topology.edge_counts();
     assert_eq!((counts.non_manifold, counts.flipped), (0, 0));
@@ -74,7 +74,7 @@ fn a_sphere_is_wrapped_within_the_tolerance_and_keeps_its_volume() {
     assert!((part - 1.0).abs() < 0.01, "{part}");
     // Pieces inside are gone.
     let nested = joined(&[sphere.clone(), icosphere(3, 2.0, Vec3::new(1.0, 2.0, 3.0))]);
-    assert_eq!(at_once(wrap(&nested, 0.3, &mut Vec::new(), &Yielder::never())).unwrap(), found);
+    assert_eq!(at_once(wrap(&nested, 0.3, true, &mut Vec::new(), &Yielder::never())).unwrap(), found);
 }
 
 #[test]
@@ -129,6 +129,11 @@ fn ragged_ends_stay_open_and_are_cut_square_after() {
     // What is filled between the rags is flat.
     let (found, ends) = wrapped(&mesh, 0.3, |p| from_tube(p, 2.0, 40.0) - 0.2);
     assert_eq!((ends, components(found.positions.len(), &found.triangles).count()), (2, 1));
+    // Where nothing is cut they stay closed.
+    let plan = Plan { wrap: Some(0.3), ..Plan::default() };
+    let found = at_once(prepare(&mesh, &plan, &Yielder::never())).unwrap();
+    assert!(found.fate.is_ready() && found.surface.patches.len() == 1, "{:?} {:?}", found.fate, found.notes);
+    assert_eq!(found.notes.iter().filter(|note| matches!(note, Note::AsWall { .. })).count(), 2);
     let plan = Plan { wrap: Some(0.3), ..Plan::flow() };
     let found = at_once(prepare(&mesh, &plan, &Yielder::never())).unwrap();
     assert!(found.fate.is_ready() && found.surface.patches.len() == 3, "{:?} {:?}", found.fate, found.notes);
@@ -145,7 +150,7 @@ fn a_sheet_gets_two_sides_and_a_wrap_that_is_too_fine_says_what_may_do() {
     let (found, ends) = wrapped(&mesh, 0.4, |p| away(p - middle));
     assert_eq!(ends, 0);
     assert!((volume_closed(&found) / (100.0 * 0.4) - 0.8).abs() < 0.25, "{}", volume_closed(&found));
-    let wrap = |tolerance| at_once(wrap(&mesh, tolerance, &mut Vec::new(), &Yielder::never()));
+    let wrap = |tolerance| at_once(wrap(&mesh, tolerance, true, &mut Vec::new(), &Yielder::never()));
     assert!(matches!(wrap(1e-3), Err(PrepareError::Wrap { least_mm, .. }) if least_mm > 1e-3 && wrap(0.1).is_ok()));
 }
 
