@@ -1,11 +1,11 @@
 """What TetGen, Gmsh and fTetWild make of surfaces that `lumen prepare` wrote, and of the same prepared by pymeshfix + pymeshlab.
 
-    python solvers.py [FILE...] [--fast]
-    python solvers.py --family [PART OF A NAME...] [--fast]
+    python solvers.py [FILE...] [--fast] [--wrap=MM]
+    python solvers.py --family [PART OF A NAME...] [--fast] [--wrap=MM]
 
 Python is one with gmsh, meshio, numpy, pymeshfix, pymeshlab, pytetwild, pyvista and tetgen; LUMEN_PROGRAM names the program
 if it is not target/release/lumen. Without files: those of LUMEN_DATA/real, and the phantoms; with --family those that
-`families.py` makes, without the peers. --fast leaves out fTetWild and the peers. A line for each file: the ends,
+`families.py` makes, without the peers. --fast leaves out fTetWild and the peers; --wrap takes a wrap of each. A line for each file: the ends,
 triangles, mean quality, share of triangles with an angle under 30 degrees, and the cells that each mesher fills the surface
 with, without repair; "no" where it does not, or where the volume differs by more than 1 %. Nonzero exit status if Lumen, TetGen
 or Gmsh refuses a surface.
@@ -180,6 +180,7 @@ def made(make, number, folder):
 
 def main():
     names = [name for name in sys.argv[1:] if not name.startswith("--")]
+    OPTIONS.extend(option for option in sys.argv[1:] if option.startswith("--wrap="))
     is_family, is_fast = "--family" in sys.argv, "--fast" in sys.argv
     fillers, has_peers = [tetgen, gmsh, *([] if is_fast else [ftetwild])], not (is_family or is_fast)
     print(f"{'file':44} ends triangles quality <30deg   s | tetgen    gmsh ftetwild | tetgen    gmsh (pymeshfix + pymeshlab)")

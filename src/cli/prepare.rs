@@ -36,6 +36,10 @@ pub struct Prepare {
     /// Begin with what this file says, saved in the window with its settings; options count for more
     #[arg(long, value_name = "FILE.json")]
     settings: Option<PathBuf>,
+    /// Take in place of the surface a watertight one, at most so far from it: mm, as in 0.3mm; "none". Crossing, double and
+    /// inner triangles and gaps narrower than that are gone
+    #[arg(long, value_name = "TOLERANCE", value_parser = or_none(tolerance), allow_hyphen_values = true)]
+    wrap: Option<Said<f64>>,
     /// Take triangles that cross apart first
     #[arg(long, overrides_with = "no_uncross")]
     uncross: bool,
@@ -97,6 +101,13 @@ fn or_none<T>(parse: fn(&str) -> Result<T, String>) -> impl Fn(&str) -> Result<S
 
 fn around(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| format!("{text} is no number of edges"))
+}
+
+/// A number of mm, more than 0.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let mm = text.strip_suffix("mm").unwrap_or(text).trim().parse().ok();
+    mm.filter(|mm: &f64| mm.is_finite() && *mm > 0.0)
+        .ok_or_else(|| format!("{text} is no tolerance in mm, as 0.3mm is"))
 }
 
 /// A number of radii, or of mm where that stands behind it.
@@ -191,6 +202,7 @@ impl Prepare {
                 Some(said) => said.so().map(|around| Sizing { around, ..begun.remesh.unwrap_or_default() }),
                 None => begun.remesh,
             },
+            wrap: self.wrap.map_or(begun.wrap, Said::so),
         };
         match &mut plan.remesh {
             Some(sizing) => {
@@ -207,7 +219,9 @@ impl Prepare {
             None => {}
         }
         if plan == Plan::default() {
-            return Err(misuse("nothing is asked for: say --uncross, --clip, --clip-end, --extend, --cap or --remesh"));
+            return Err(misuse(
+                "nothing is asked for: say --wrap, --uncross, --clip, --clip-end, --extend, --cap or --remesh",
+            ));
         }
         Ok(plan)
     }

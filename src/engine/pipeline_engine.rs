@@ -14,18 +14,17 @@ use super::found::Opened;
 use super::machine::{Machine, SLICE};
 use super::message::{Command, Event, Work};
 use super::opening::{Opening, Read};
-use super::preparing::{Preparing, written};
+use super::preparing::{Made, Preparing, written};
 use super::progress::tell_progress;
 use super::record::{self, Animation, Asked, Origin};
 use super::source::Source;
 use crate::io::{self, Axes, Imported, Output};
 use crate::language::{Key, tell};
-use crate::mesh::{TriMesh, Vec3};
+use crate::mesh::{Array, TriMesh, Vec3};
 use crate::pipeline::coarser::halved;
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Settings;
-use crate::prepare::Patched;
 use crate::say;
 use crate::task::{Budget, Progress, milliseconds};
 use crate::vessel::CentrelineFormat;
@@ -51,8 +50,8 @@ pub struct Engine {
     averaging: Option<Averaging>,
     /// A surface on its way to a solver.
     preparing: Option<Preparing>,
-    /// The one that is ready, and the number of the command that asked for it.
-    prepared: Option<(u64, Patched)>,
+    /// The one that is ready.
+    prepared: Option<Made>,
     writing: VecDeque<Writing>,
     animation: Animation,
     events: VecDeque<Event>,
@@ -65,6 +64,12 @@ struct Writing {
     mesh: TriMesh,
     axes: Axes,
     to: Axes,
+}
+
+/// The arrays of the newest level, where that is `mesh`.
+fn level_arrays(current: &Current, mesh: &TriMesh) -> Option<Arc<Vec<Array>>> {
+    let reduced = current.pipeline.reduced().filter(|reduced| *reduced.mesh == *mesh);
+    reduced.and(current.pipeline.level_arrays()).cloned()
 }
 
 impl Engine {
@@ -102,12 +107,15 @@ impl Engine {
                 self.besiding = Some(Besiding::new(id, reference, mesh, of, (align, tolerance_percent)));
             }
             Command::Average { id, passes } => self.averaging = Some(Averaging::new(id, passes)),
-            Command::Prepare { id, mesh, plan } => self.preparing = Some(Preparing::new(id, mesh, plan)),
+            Command::Prepare { id, mesh, plan } => self.preparing = Some(Preparing::Asked(id, mesh, plan)),
             Command::PlanCuts { id, mesh, plan } => self.preparing = Some(Preparing::cuts(id, mesh, plan)),
             Command::WriteSolver { id, name, format, names } => {
-                let ready = self.prepared.as_ref().filter(|(of, _)| *of == id).ok_or_else(|| say!("errors-no-result"));
-                self.events.push_back(match ready.and_then(|(_, surface)| written(surface, &name, names, format)) {
-                    Ok(bytes) => Event::Written { name, bytes, left_out: None },
+                let ready = self.prepared.as_ref().filter(|made| made.id == id);
+                let not_carried = format.has_arrays() && ready.is_some_and(|made| made.arrays.is_none());
+                let left_out = (not_carried && self.has_arrays()).then(|| NOT_CARRIED.say());
+                let ready = ready.ok_or_else(|| say!("errors-no-result"));
+                self.events.push_back(match ready.and_then(|made| written(made, &name, names, format)) {
+                    Ok(bytes) => Event::Written { name, bytes, left_out },
                     Err(message) => Event::NotWritten { name, message },
                 });
             }
@@ -194,7 +202,7 @@ impl Engine {
         let events = &mut self.events;
         let can_average = current.pipeline.kept().is_some();
         if let Some(preparing) = &mut self.preparing {
-            if !preparing.advance(budget, &mut self.prepared, events) {
+            if !preparing.advance(budget, |mesh| level_arrays(current, mesh), &mut self.prepared, events) {
                 self.preparing = None;
             }
         } else if let Some(besiding) = &mut self.besiding {
@@ -224,18 +232,19 @@ impl Engine {
         self.events.pop_front()
     }
 
+    fn has_arrays(&self) -> bool {
+        self.current.as_ref().is_some_and(|current| current.pipeline.has_arrays())
+    }
+
     fn write(&mut self, Writing { name, format, mut mesh, axes, to }: Writing) {
         let mut normals: Vec<Vec3> = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
-        let carried = self.current.as_ref().and_then(|current| {
-            let reduced = current.pipeline.reduced().filter(|reduced| *reduced.mesh == mesh);
-            reduced.and(current.pipeline.level_arrays())
-        });
-        let has_arrays = self.current.as_ref().is_some_and(|current| current.pipeline.has_arrays());
+        let carried = self.current.as_ref().and_then(|current| level_arrays(current, &mesh));
+        let has_arrays = self.has_arrays();
         let left_out = match carried {
             None => has_arrays.then(|| NOT_CARRIED.say()),
-            Some(arrays) => io::left_out(arrays, format).map(|arrays| tell(&arrays)),
+            Some(ref arrays) => io::left_out(arrays, format).map(|arrays| tell(&arrays)),
         };
-        let mut arrays = Cow::Borrowed(carried.map_or(&[][..], |arrays| arrays));
+        let mut arrays = Cow::Borrowed(carried.as_deref().map_or(&[][..], |arrays| arrays));
         let turned = if axes == to { Ok(()) } else { axes.turn(to, &mut mesh, &mut normals, arrays.to_mut()) };
         let written = turned.map_err(|error| tell(&error)).and_then(|()| {
             let output = Output { mesh: &mesh, normals: Some(&normals), arrays: &arrays, axes: to };
@@ -340,7 +349,7 @@ impl Engine {
         self.comparing.take_if(|comparing| comparing.id < id);
         self.differing.take_if(|differing| differing.id < id);
         self.averaging.take_if(|averaging| averaging.id < id);
-        self.preparing.take_if(|preparing| preparing.id < id);
+        self.preparing.take_if(|preparing| preparing.id() < id);
         self.besiding.take_if(|besiding| besiding.id < id);
         let origin = Origin { digest, import: report.clone(), has_units };
         self.current = Some(Current::new(id, name.clone(), origin, pipeline, milliseconds(since)));

@@ -7,60 +7,100 @@ use std::sync::Arc;
 use super::found::{CutsPlanned, PlannedCuts, Ready, SolverReady};
 use super::message::{Event, Work};
 use super::progress::tell_progress;
-use crate::mesh::TriMesh;
+use crate::mesh::{Array, TriMesh};
+use crate::pipeline::carry::carry_over;
 use crate::prepare::Patched;
 use crate::prepare::cuts::cuts;
 use crate::prepare::prepare::{Plan, Prepared, prepare};
 use crate::prepare::write::SolverFormat;
 use crate::task::{Budget, Progress, Running};
 
-/// A surface on its way to a solver, or the plan of its cuts.
-pub(super) struct Preparing {
+/// The part of the work that the surface is; the rest is its arrays.
+const PREPARED: f32 = 0.9;
+
+/// A surface that was made ready.
+pub(super) struct Made {
+    /// The number of the command.
     pub(super) id: u64,
-    /// What is told of it, and the surface where there is one.
-    running: Running<'static, (Event, Option<Patched>)>,
+    surface: Patched,
+    /// The arrays of the level that it was made of; `None` where that was another than the newest.
+    pub(super) arrays: Option<Vec<Array>>,
+}
+
+/// A surface on its way to a solver, or the plan of its cuts.
+pub(super) enum Preparing {
+    /// Nothing is done yet: the number of the command, the surface, and what is done to it.
+    Asked(u64, Arc<TriMesh>, Plan),
+    /// The number of the command; what is told of it, and the surface where there is one.
+    Begun(u64, Running<'static, (Event, Option<Made>)>),
 }
 
 impl Preparing {
-    /// Nothing done yet; `id` is that of the command.
-    pub(super) fn new(id: u64, mesh: Arc<TriMesh>, plan: Plan) -> Self {
-        let running = Running::new(|yielder| async move {
-            let mut made = None;
-            let outcome = prepare(&mesh, &plan, &yielder).await.map(|found| {
+    /// The number of the command.
+    pub(super) fn id(&self) -> u64 {
+        match self {
+            Self::Asked(id, ..) | Self::Begun(id, _) => *id,
+        }
+    }
+
+    /// Of a surface with these arrays.
+    fn begun(id: u64, mesh: Arc<TriMesh>, plan: Plan, arrays: Option<Arc<Vec<Array>>>) -> Self {
+        Self::Begun(
+            id,
+            Running::new(|yielder| async move {
+                let found = match prepare(&mesh, &plan, &yielder.part(0.0..PREPARED)).await {
+                    Ok(found) => found,
+                    Err(error) => return (Event::Prepared(Box::new(SolverReady { id, outcome: Err(error) })), None),
+                };
                 let Prepared { surface, fate, notes, crossing, remeshed } = found;
+                let arrays = match arrays {
+                    Some(arrays) if !arrays.is_empty() => {
+                        let part = yielder.part(PREPARED..1.0);
+                        Some(carry_over(arrays.to_vec(), &mesh, &surface.mesh, &part).await)
+                    }
+                    known => known.map(|_| Vec::new()),
+                };
                 let Patched { mesh, of_triangle, patches } = surface.clone();
-                made = Some(surface);
-                Ready { mesh: Arc::new(mesh), of_triangle, patches, fate, notes, crossing, remeshed }
-            });
-            (Event::Prepared(Box::new(SolverReady { id, outcome })), made)
-        });
-        Self { id, running }
+                let ready = Ready { mesh: Arc::new(mesh), of_triangle, patches, fate, notes, crossing, remeshed };
+                let event = Event::Prepared(Box::new(SolverReady { id, outcome: Ok(ready) }));
+                (event, Some(Made { id, surface, arrays }))
+            }),
+        )
     }
 
-    /// The same of where its ends are cut.
+    /// Where the ends of a surface are cut.
     pub(super) fn cuts(id: u64, mesh: Arc<TriMesh>, plan: Plan) -> Self {
-        let running = Running::new(|yielder| async move {
-            let outcome = cuts(&mesh, &plan, &yielder).await.map(PlannedCuts::from);
-            (Event::CutsPlanned(Box::new(CutsPlanned { id, outcome })), None)
-        });
-        Self { id, running }
+        Self::Begun(
+            id,
+            Running::new(|yielder| async move {
+                let outcome = cuts(&mesh, &plan, &yielder).await.map(PlannedCuts::from);
+                (Event::CutsPlanned(Box::new(CutsPlanned { id, outcome })), None)
+            }),
+        )
     }
 
-    /// Works for about `budget`; whether there is more to do. What comes of it is put into `made` and told.
+    /// Works for about `budget`; whether there is more to do. What comes of it is put into `made` and told. `arrays` finds those
+    /// of a level.
     pub(super) fn advance(
         &mut self,
         budget: Budget,
-        made: &mut Option<(u64, Patched)>,
+        arrays: impl FnOnce(&TriMesh) -> Option<Arc<Vec<Array>>>,
+        made: &mut Option<Made>,
         events: &mut VecDeque<Event>,
     ) -> bool {
-        match self.running.advance(budget) {
+        if let Self::Asked(id, mesh, plan) = self {
+            let arrays = arrays(mesh);
+            *self = Self::begun(*id, mesh.clone(), std::mem::take(plan), arrays);
+        }
+        let Self::Begun(_, running) = self else { return false };
+        match running.advance(budget) {
             Progress::Working(fraction) => {
                 tell_progress(Work::Preparing, fraction, events);
                 true
             }
             Progress::Done((event, surface)) => {
-                if let Some(surface) = surface {
-                    *made = Some((self.id, surface));
+                if surface.is_some() {
+                    *made = surface;
                 }
                 events.push_back(event);
                 false
@@ -70,16 +110,12 @@ impl Preparing {
 }
 
 /// The file `name` of a surface in patches, which are called by `names`. Of a format of several files it is a ZIP.
-pub(super) fn written(
-    surface: &Patched,
-    name: &str,
-    names: Vec<String>,
-    format: SolverFormat,
-) -> Result<Vec<u8>, String> {
-    let mut surface = surface.clone();
+pub(super) fn written(made: &Made, name: &str, names: Vec<String>, format: SolverFormat) -> Result<Vec<u8>, String> {
+    let mut surface = made.surface.clone();
+    let arrays = made.arrays.as_deref().unwrap_or_default();
     surface.patches.iter_mut().zip(names).for_each(|(patch, name)| patch.name = name);
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    let mut files = format.written(&surface, stem).map_err(|error| error.to_string())?;
+    let mut files = format.written_with(&surface, arrays, stem).map_err(|error| error.to_string())?;
     if format.is_folder() {
         return zipped(&files).map_err(|error| error.to_string());
     }
@@ -102,8 +138,11 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::engine::{Command, Engine, with_sample};
+    use crate::engine::{Command, Engine, Source, with_sample};
+    use crate::io;
+    use crate::mesh::arrays::{Association, Values};
     use crate::mesh::shapes::tube;
+    use crate::pipeline::settings::{Preset, Settings, Target};
     use crate::prepare::PatchKind;
     use crate::prepare::cuts::{ClipAt, Cut};
     use crate::prepare::ends::Length;
@@ -155,6 +194,42 @@ mod tests {
         // Another than the one that is shown.
         engine.handle(write(6));
         assert!(matches!(run(&mut engine).as_slice(), [Event::NotWritten { .. }]));
+    }
+
+    #[test]
+    fn the_arrays_of_a_level_are_in_the_files_that_have_a_place_for_them() {
+        let mesh = tube(48, 80, 40.0, |_| 2.0);
+        let heights: Vec<f32> = mesh.positions.iter().map(|p| p.z).collect();
+        let arrays = [Array::new("Height", Association::Point, 1, Values::from_floats(&heights))];
+        let output = io::Output { mesh: &mesh, normals: None, arrays: &arrays, axes: io::Axes::Unknown };
+        let bytes = io::write_output(&output, io::Format::Vtp).unwrap();
+        let (options, bytes) = (io::ImportOptions::default(), Arc::new(bytes));
+        let source = Source::File { name: "a.vtp".to_owned(), bytes, options };
+        let mut engine = Engine::new();
+        let target = Target::Reduction(500);
+        let settings = Settings { smoothing: Preset::None.smoothing(), target, ..Settings::default() };
+        engine.handle(Command::Open { id: 1, source, settings });
+        let events = run(&mut engine);
+        let level = events.iter().find_map(|event| match event {
+            Event::Reduced(reduced) => Some(reduced.mesh.extract(&reduced.mesh.level(target).triangles)),
+            _ => None,
+        });
+        let level = level.expect("a level");
+        for (mesh, is_carried) in [(level, true), (mesh, false)] {
+            engine.handle(Command::Prepare { id: 2, mesh: Arc::new(mesh), plan: Plan::flow() });
+            prepared(run(&mut engine)).expect("an answer").outcome.unwrap();
+            for (format, has_arrays) in
+                [(SolverFormat::Vtp, true), (SolverFormat::Msh, true), (SolverFormat::Stl, false)]
+            {
+                let (name, names) = ("a.vtp".to_owned(), ["wall", "a", "b"].map(str::to_owned).to_vec());
+                engine.handle(Command::WriteSolver { id: 2, name, format, names });
+                let files = run(&mut engine);
+                let [Event::Written { bytes, left_out, .. }] = files.as_slice() else { panic!("{files:?}") };
+                let is_there = bytes.windows(6).any(|word| word == b"Height");
+                assert_eq!(is_there, has_arrays && is_carried, "{format:?}");
+                assert_eq!(left_out.is_some(), has_arrays && !is_carried, "{format:?}");
+            }
+        }
     }
 
     #[test]

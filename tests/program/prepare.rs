@@ -179,6 +179,35 @@ fn a_settings_file_says_what_is_done_and_options_count_for_more() {
 }
 
 #[test]
+fn tubes_that_cross_are_wrapped_and_keep_their_ends() {
+    let folder = Folder::new("prepare-wrap");
+    let [file, settings, out] = ["cross.ply", "s.json", "out"].map(|name| folder.file(name));
+    let along = lumen::mesh::shapes::tube(24, 30, 30.0, |_| 2.0);
+    let mut across = along.clone();
+    across.positions.iter_mut().for_each(|p| *p = lumen::mesh::Vec3::new(p.z - 15.0, p.x, p.y + 15.0));
+    let both = lumen::mesh::shapes::joined(&[along, across]);
+    std::fs::write(&file, lumen::io::write(&both, None, lumen::io::Format::Ply).unwrap()).unwrap();
+    let solver = Some(Plan { wrap: Some(0.4), ..Plan::default() });
+    let text = write_settings_and(&SharedSettings::default(), Beside { solver, ..Beside::default() });
+    std::fs::write(&settings, text).unwrap();
+    let mut made = Vec::new();
+    for options in [&["--wrap", "0.4mm"][..], &["--settings", &settings]] {
+        succeed(&[&["prepare", &file, "--format", "stl", "-o", &out], options].concat());
+        let summary = json(&format!("{out}/cross.json"));
+        assert_eq!((&summary["is_ready"], summary["patches"].as_array().unwrap().len()), (&true.into(), 5));
+        let told = summary["notes"][0].as_str().unwrap();
+        assert!(told.starts_with("The surface is wrapped, at most 0."), "{told}");
+        let (solids, volume) = solids(Path::new(&format!("{out}/cross.stl")));
+        assert_eq!(solids.len(), 5);
+        // What two cylinders have in common is 16 / 3 of the radius cubed.
+        let expected = 8.0 * PI * 30.0 - 16.0 / 3.0 * 8.0;
+        assert!((volume / expected - 1.0).abs() < 0.03, "{volume} of {expected}");
+        made.push(volume);
+    }
+    assert_eq!(made[0], made[1]);
+}
+
+#[test]
 fn what_cannot_be_prepared_gets_a_sentence_and_no_file() {
     let folder = Folder::new("prepare-refused");
     let out = folder.file("out");
@@ -191,6 +220,8 @@ fn what_cannot_be_prepared_gets_a_sentence_and_no_file() {
         (&["--clip-end", "1,2=3mm"], 2, "is no cut of an end"),
         (&["--clip-end", "1,2,x=3mm"], 2, "is no cut of an end"),
         (&["--clip-end", "1,2,3=far"], 2, "is no length"),
+        (&["--wrap", "0"], 2, "is no tolerance in mm"),
+        (&["--wrap", "0.001mm"], 1, "would be too large: try"),
     ] {
         let refused = lumen(&[&["prepare", "sample:aorta", "-o", &out], arguments].concat());
         let error = String::from_utf8_lossy(&refused.stderr);

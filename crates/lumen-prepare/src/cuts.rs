@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::clip::{Clipped, clip};
 use super::ends::{EndPlane, EndPlanes, Length, check_surface, free_ends, skeleton};
 use super::notes::{Note, PrepareError, Reason};
-use super::prepare::{Plan, vessel};
+use super::prepare::{Plan, vessel, wrapped};
 
 /// A place is that of an end at most so many of its radii away.
 pub const NEAR: f64 = 8.0;
@@ -80,7 +80,8 @@ pub async fn cuts(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<Cuts
     plan.check()?;
     check_surface(mesh)?;
     let mut notes = Vec::new();
-    let mesh = vessel(mesh, true, &mut notes, &yielder.part(0.0..0.1)).await?;
+    let wrapped = wrapped(mesh, plan, true, &mut notes, &yielder.part(0.0..0.05)).await?;
+    let mesh = vessel(wrapped.as_ref().unwrap_or(mesh), true, &mut notes, &yielder.part(0.05..0.1)).await?;
     yielder.rest(0.1).await;
     let (mut ends, strays) = planned(&mesh, plan, &yielder.part(0.1..0.9)).await?;
     notes.extend(strays);

@@ -11,6 +11,7 @@ pub mod notes;
 pub mod prepare;
 pub mod remesh;
 pub mod uncross;
+pub mod wrap;
 pub mod write;
 
 use serde::{Deserialize, Serialize};

@@ -110,6 +110,11 @@ messages! {
             /// Why not.
             why: Reason,
         } => "{name} is not extended: {why}.",
+        /// The surface is wrapped.
+        "solver-note-wrapped" Wrapped {
+            /// How far the wrap is from what it wraps at most, in mm.
+            deviation_mm: f64 [3],
+        } => "The surface is wrapped, at most {deviation_mm:.3} mm away.",
     }
 }
 
@@ -149,6 +154,13 @@ messages! {
             /// How many there may be.
             most: usize,
         } => { format!("edges as short as that make about {about} triangles, and at most {most} are made") },
+        /// The wrap would be too large.
+        "solver-error-wrap" Wrap {
+            /// The tolerance, in mm.
+            tolerance_mm: f64 [2],
+            /// One that may do, in mm.
+            least_mm: f64 [2],
+        } => "a wrap within {tolerance_mm:.2} mm would be too large: try {least_mm:.2} mm",
     }
 }
 

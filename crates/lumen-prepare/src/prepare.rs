@@ -1,4 +1,4 @@
-//! All of it in one call: the lumen of a wall, the largest piece, uncross, clip, extend, cap, remesh, check.
+//! All of it in one call: wrap, the lumen of a wall, the largest piece, uncross, clip, extend, cap, remesh, check.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -11,6 +11,7 @@ use super::extend::{ExtendError, Extended, extend};
 use super::notes::{Note, PrepareError, Reason};
 use super::remesh::{Deviation, Quality, Remeshed, Sizing, remesh_in_slices};
 use super::uncross::{Uncrossed, uncross_in_slices};
+use super::wrap::wrap;
 use super::{Patch, PatchKind, Patched};
 use lumen_mesh::mending::fill::fill;
 use lumen_mesh::mending::split::split;
@@ -27,6 +28,8 @@ const OF_FREE: f64 = 0.9;
 const FLAT: f64 = 0.011;
 /// Times for each end that extensions are tried.
 const ROUNDS: usize = 4;
+/// The part of the work that a wrap is.
+const WRAPPED: f32 = 0.5;
 
 /// What is done to a surface, from top to bottom.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -44,6 +47,8 @@ pub struct Plan {
     pub cap: Option<CapKind>,
     /// How large triangles are; `None` leaves them as they are.
     pub remesh: Option<Sizing>,
+    /// In place of the surface a closed one is taken, within this distance of it in mm; `None` takes the surface itself.
+    pub wrap: Option<f64>,
 }
 
 impl Plan {
@@ -51,7 +56,7 @@ impl Plan {
     pub fn flow() -> Self {
         let (clip, extend) = (Some(ClipAt::Round), Some(Length::Radii(5.0)));
         let (cap, remesh) = (Some(CapKind::Planar), Some(Sizing::default()));
-        Self { uncross: true, clip, cuts: Vec::new(), extend, cap, remesh }
+        Self { uncross: true, clip, cuts: Vec::new(), extend, cap, remesh, wrap: None }
     }
 
     /// Whether any end is cut.
@@ -74,7 +79,8 @@ impl Plan {
         let are_places = self.cuts.iter().flat_map(|cut| cut.end_mm).all(f64::is_finite);
         let are_right = are_places
             && all.flatten().all(|at| if let ClipAt::Distance(length) = at { is_length(length) } else { true })
-            && self.extend.is_none_or(is_length);
+            && self.extend.is_none_or(is_length)
+            && self.wrap.is_none_or(|mm| mm > 0.0 && mm.is_finite());
         self.remesh.as_ref().map_or(Ok(()), Sizing::check)?;
         if are_right { Ok(()) } else { Err(PrepareError::Sizes) }
     }
@@ -104,6 +110,9 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     plan.check()?;
     check_surface(mesh)?;
     let mut notes = Vec::new();
+    let wrapped = wrapped(mesh, plan, plan.is_of_vessels(), &mut notes, &yielder.part(0.0..WRAPPED)).await?;
+    let mesh = wrapped.as_ref().unwrap_or(mesh);
+    let yielder = &yielder.part(if wrapped.is_some() { WRAPPED } else { 0.0 }..1.0);
     let mesh = vessel(mesh, plan.is_of_vessels(), &mut notes, &yielder.part(0.0..0.05)).await?;
     yielder.rest(0.05).await;
     let (mut mesh, crossing) = if plan.uncross {
@@ -117,12 +126,12 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
         mesh = clipped(mesh, plan, &mut notes, &yielder.part(0.3..0.5)).await?;
     }
     yielder.rest(0.5).await;
-    let mut surface = if plan.extend.is_some() || plan.cap.is_some() {
+    let mut surface = if plan.extend.is_some() || plan.cap.is_some() || plan.wrap.is_some() {
         // What is flat and closed is an end like those that are open.
         let (walls, had_caps) = opened(&mesh);
         let (mut mesh, ends) = without_holes(&largest_piece(walls).0, &mut notes)?;
         unfold(&mut mesh, &ends);
-        if ends.is_empty() {
+        if ends.is_empty() && (plan.extend.is_some() || plan.cap.is_some()) {
             notes.push(Note::NoEnds);
         }
         let (mesh, ends) = match plan.extend.filter(|_| !ends.is_empty()) {
@@ -130,7 +139,8 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
             None => (mesh, ends),
         };
         // What was closed is closed again.
-        match plan.cap.or(had_caps.then_some(CapKind::Planar)).filter(|_| !ends.is_empty()) {
+        let is_closed = had_caps || plan.wrap.is_some();
+        match plan.cap.or(is_closed.then_some(CapKind::Planar)).filter(|_| !ends.is_empty()) {
             Some(kind) => cap(&mesh, &ends, kind)?,
             None => Patched::wall(mesh),
         }
@@ -161,6 +171,21 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     surface.mesh = compacted(&surface.mesh.positions, surface.mesh.triangles);
     let fate = check(&surface);
     Ok(Prepared { surface, fate, notes, crossing, remeshed })
+}
+
+/// The wrap of a surface, where one is asked for: of a wall that of its lumen, where it `is_of_vessels` and can be told already.
+pub(crate) async fn wrapped(
+    mesh: &TriMesh,
+    plan: &Plan,
+    is_of_vessels: bool,
+    notes: &mut Vec<Note>,
+    yielder: &Yielder,
+) -> Result<Option<TriMesh>, PrepareError> {
+    let Some(tolerance_mm) = plan.wrap else { return Ok(None) };
+    let lumen =
+        if is_of_vessels { without_wall(split(mesh).mesh, notes, &yielder.part(0.0..0.1)).await.ok() } else { None };
+    let part = yielder.part(0.1..1.0);
+    wrap(lumen.as_ref().unwrap_or(mesh), tolerance_mm, plan.clips(), notes, &part).await.map(Some)
 }
 
 /// What of a surface is prepared: its largest piece, of a wall the lumen where it `is_of_vessels`.

@@ -44,6 +44,7 @@ pub struct Planned {
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::app) struct CutsOf {
     level: Level,
+    wrap: Option<f64>,
     clip: Option<ClipAt>,
     cuts: Vec<Cut>,
 }
@@ -120,7 +121,7 @@ impl Preparation {
     }
 
     fn cuts_of(&self, level: Level) -> CutsOf {
-        CutsOf { level, clip: self.plan.clip, cuts: self.plan.cuts.clone() }
+        CutsOf { level, wrap: self.plan.wrap, clip: self.plan.clip, cuts: self.plan.cuts.clone() }
     }
 
     /// Waits for nothing more. Whether it did.

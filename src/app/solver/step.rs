@@ -27,6 +27,8 @@ use crate::say;
 
 /// The bound on the deviation that is begun with, in mm.
 const BOUND_MM: f64 = 0.1;
+/// The tolerance of a wrap that is begun with, in mm.
+const TOLERANCE_MM: f64 = 0.5;
 /// Width of a field for a name, in points.
 const NAME: f32 = 96.0;
 /// Times the radius of an end that is shown around a place.
@@ -41,6 +43,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, asked: &mut Vec<Ask>) {
     let summary = preparation.made.as_ref().map(|made| readiness(made.ready.fate.is_ready()));
     let summary = RichText::new(summary.unwrap_or_default()).weak();
     Fold { number: 5, title: &title, what: &what, summary, is_open: false }.show(ui, |ui| {
+        wrap(ui, &mut plan);
         ends(ui, &mut plan);
         triangles(ui, &title, &mut plan);
         buttons(ui, state, &mut of_step);
@@ -62,6 +65,29 @@ pub(super) fn show(ui: &mut Ui, state: &State, asked: &mut Vec<Ask>) {
         of_step.insert(0, Action::Set(plan));
     }
     asked.extend(of_step.into_iter().map(Ask::Solver));
+}
+
+/// Whether a wrap is taken in place of the surface, and how near to it.
+fn wrap(ui: &mut Ui, plan: &mut Plan) {
+    let (mut wraps, help) = (plan.wrap.is_some(), say!("solver-wrap-help"));
+    ui.checkbox(&mut wraps, say!("solver-wrap")).on_hover_text(&help);
+    if wraps != plan.wrap.is_some() {
+        plan.wrap = wraps.then_some(TOLERANCE_MM);
+    }
+    if let Some(mm) = &mut plan.wrap {
+        let (name, range, default) = (say!("solver-wrap-mm"), 0.05..=5.0, TOLERANCE_MM);
+        let setting = Setting {
+            name: &name,
+            help: &help,
+            unit: " mm",
+            range,
+            default,
+            auto: None,
+            decimals: 2,
+            logarithmic: true,
+        };
+        setting.show(ui, mm);
+    }
 }
 
 /// What is done where vessels end.

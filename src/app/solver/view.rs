@@ -19,6 +19,8 @@ use crate::say;
 
 /// Ends whose names stand in the picture.
 const NAMED: usize = 40;
+/// Points between a name and another, or the border.
+const NAMES_APART: f32 = 2.0;
 
 /// The views: what of them stands in GPU memory.
 #[derive(Default)]
@@ -106,15 +108,15 @@ impl SolverView {
             let label = format!("{}: {}", titles[i], say!("solver-title"));
             picture.widget_info(|| WidgetInfo::labeled(Role::Image, true, &label));
             self.picture(ui, i, rect, (mesh, ends), looks, views);
-            write(ui, rect, rect.min + vec2(12.0, 12.0), Align2::LEFT_TOP, &titles[i]);
-            write(ui, rect, rect.min + vec2(12.0, 30.0), Align2::LEFT_TOP, &below);
+            let title = write(ui, rect, rect.min + vec2(12.0, 12.0), Align2::LEFT_TOP, &titles[i]);
+            let heading = title.union(write(ui, rect, rect.min + vec2(12.0, 30.0), Align2::LEFT_TOP, &below));
             let axes = document.map(|document| document.import.axes).unwrap_or_default();
             overlay::scale_and_axes(ui, rect, &views.camera, axes);
             match (preparation.shown, &preparation.planned) {
                 (Some(Shown::Cuts), Some(planned)) => {
                     asked = asked.or(cuts::rings(ui, i, rect, &views.camera, preparation, planned));
                 }
-                _ if i == 0 => names(ui, rect, preparation, views),
+                _ if i == 0 => names(ui, rect, heading, preparation, views),
                 _ => {}
             }
             views.steer(ui, &picture, 1, document, keep);
@@ -157,20 +159,35 @@ impl SolverView {
     }
 }
 
-/// The names of the ends, where these are.
-fn names(ui: &Ui, rect: Rect, preparation: &Preparation, views: &Views) {
+/// The names of the ends, where these are, or just below what is written there already.
+fn names(ui: &Ui, rect: Rect, heading: Rect, preparation: &Preparation, views: &Views) {
     let patches = preparation.made.iter().flat_map(|made| &made.ready.patches);
+    let mut written = vec![heading.expand(NAMES_APART)];
     for patch in patches.skip(1).take(NAMED) {
         let centre = Vec3::from_array(patch.centre.map(|x| x as f32));
-        if let Some(at) = seen(centre, &views.camera, rect).filter(|at| rect.shrink(24.0).contains(*at)) {
-            write(ui, rect, at, Align2::CENTER_CENTER, &patch.name);
+        let Some(at) = seen(centre, &views.camera, rect).filter(|at| rect.contains(*at)) else { continue };
+        let font = TextStyle::Small.resolve(ui.style());
+        let size = ui.painter().layout_no_wrap(patch.name.clone(), font, Color32::PLACEHOLDER).size();
+        // The name of an end at the border stays within it.
+        let inside = rect.shrink(NAMES_APART).shrink2(size / 2.0);
+        if inside.is_negative() {
+            continue;
+        }
+        let mut place = Rect::from_center_size(inside.clamp(at), size);
+        // Each step down passes one of them for good.
+        while let Some(above) = written.iter().find(|above| above.intersects(place)) {
+            place = place.translate(vec2(0.0, above.bottom() - place.top() + NAMES_APART));
+        }
+        if rect.contains_rect(place) {
+            written.push(write(ui, rect, place.min, Align2::LEFT_TOP, &patch.name));
         }
     }
 }
 
-fn write(ui: &Ui, rect: Rect, at: egui::Pos2, align: Align2, text: &str) {
+/// Writes a line; where it stands.
+fn write(ui: &Ui, rect: Rect, at: egui::Pos2, align: Align2, text: &str) -> Rect {
     let (font, colour) = (TextStyle::Small.resolve(ui.style()), ui.visuals().text_color());
-    halo::text(&ui.painter_at(rect), at, align, text, font, colour);
+    halo::text(&ui.painter_at(rect), at, align, text, font, colour)
 }
 
 /// The colour of an end in the pictures.

@@ -6,6 +6,9 @@ solver-work = Die Oberfläche wird für einen Löser fertig gemacht
 
 ## Was getan wird
 
+solver-wrap = Wasserdicht umhüllen
+solver-wrap-help = Stattdessen eine geschlossene Oberfläche nahe an dieser: sich durchdringende, doppelte und innere Dreiecke und Spalten, die schmaler als die Toleranz sind, fallen weg
+solver-wrap-mm = Toleranz
 solver-uncross = Durchdringungen auflösen
 solver-uncross-help = Dreiecke, die in andere ragen, werden auseinandergeschoben oder ausgeschnitten und neu geschlossen
 solver-clip = Enden schneiden
@@ -145,6 +148,7 @@ solver-note-filled = { $count ->
 solver-note-wall = Die Öffnung bei ({ $at }) ist als Teil der Wand geschlossen: { $why }.
 solver-note-shorter = Die Verlängerung von { $name } ist nur { $mm } mm lang: weiter draußen träfe sie auf etwas.
 solver-note-not-extended = { $name } ist nicht verlängert: { $why }.
+solver-note-wrapped = Die Oberfläche ist umhüllt, höchstens { $deviation_mm } mm entfernt.
 
 ## Warum
 
@@ -171,3 +175,4 @@ solver-error-cap = { $name } kann nicht geschlossen werden: { $why }
 solver-error-mend = Kanten haben mehr als zwei Dreiecke, oder Dreiecke zeigen in entgegengesetzte Richtungen: die Oberfläche zuerst reparieren
 solver-error-sizes = die gewünschten Längen ergeben keinen Sinn
 solver-error-many = so kurze Kanten ergeben etwa { $about } Dreiecke, und höchstens { $most } werden gebildet
+solver-error-wrap = eine Hülle innerhalb von { $tolerance_mm } mm würde zu groß: versuchen Sie { $least_mm } mm

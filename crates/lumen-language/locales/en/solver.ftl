@@ -6,6 +6,9 @@ solver-work = Making the surface ready for a solver
 
 ## What is done
 
+solver-wrap = Wrap it watertight
+solver-wrap-help = A closed surface near to this one in its place: crossing, double and inner triangles and gaps narrower than the tolerance are gone
+solver-wrap-mm = Tolerance
 solver-uncross = Take crossing triangles apart
 solver-uncross-help = Triangles that run into others are pushed apart, or cut out and closed again
 solver-clip = Cut the ends

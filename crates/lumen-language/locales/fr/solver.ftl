@@ -6,6 +6,9 @@ solver-work = Préparation de la surface pour un solveur
 
 ## Ce qui est fait
 
+solver-wrap = Envelopper de façon étanche
+solver-wrap-help = À sa place une surface fermée proche de celle-ci : les triangles croisés, doubles ou intérieurs et les fentes plus étroites que la tolérance disparaissent
+solver-wrap-mm = Tolérance
 solver-uncross = Défaire les croisements
 solver-uncross-help = Les triangles qui en traversent d'autres sont écartés, ou découpés puis refermés
 solver-clip = Couper les extrémités
@@ -145,6 +148,7 @@ solver-note-filled = { $count ->
 solver-note-wall = L'ouverture en ({ $at }) est fermée comme partie de la paroi : { $why }.
 solver-note-shorter = Le prolongement de { $name } ne fait que { $mm } mm : plus loin, il rencontrerait quelque chose.
 solver-note-not-extended = { $name } n'est pas prolongé : { $why }.
+solver-note-wrapped = La surface est enveloppée, à { $deviation_mm } mm au plus.
 
 ## Pourquoi
 
@@ -171,3 +175,4 @@ solver-error-cap = { $name } ne peut pas être fermé : { $why }
 solver-error-mend = des arêtes ont plus de deux triangles, ou des triangles regardent à l'opposé : réparez d'abord la surface
 solver-error-sizes = les longueurs demandées n'ont pas de sens
 solver-error-many = des arêtes aussi courtes font environ { $about } triangles, et { $most } au plus sont faits
+solver-error-wrap = une enveloppe à { $tolerance_mm } mm près serait trop grande : essayez { $least_mm } mm

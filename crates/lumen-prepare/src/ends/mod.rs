@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub use rim::{OpenEnd, RimError, SurfaceError, check_surface, names, open_ends, planes_of_uneven_openings};
-pub(crate) use rim::{edges, forwards};
+pub(crate) use rim::{edges, forwards, plane};
 pub use skeleton::skeleton;
 pub use unfold::unfold;
 

@@ -180,7 +180,7 @@ impl OpenEnd {
 
 /// The mean of a loop's points and its unit normal: along its vector area (Newell), which points out of the vessel where the
 /// loop runs clockwise seen from outside. `None` where it encloses no area.
-fn plane(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
+pub(crate) fn plane(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
     let mean = points.iter().sum::<DVec3>() / points.len() as f64;
     let pairs = points.iter().zip(points.iter().cycle().skip(1));
     let area: DVec3 = pairs.map(|(&p, &q)| (q - mean).cross(p - mean)).sum();

@@ -9,7 +9,7 @@ use lumen::prepare::PatchKind;
 use lumen::prepare::cuts::ClipAt;
 use lumen::prepare::ends::Length;
 use lumen::prepare::prepare::Plan;
-use lumen_ui_tests::{DESKTOP, app, drag, offered, open as open_file, report_page, says, seen, settle, tube};
+use lumen_ui_tests::{DESKTOP, PHONE, app, drag, offered, open as open_file, report_page, says, seen, settle, tube};
 
 /// Brings a control into sight and presses it.
 fn press(harness: &mut Harness<'_, LumenApp>, role: Role, label: &str) {
@@ -72,6 +72,57 @@ fn a_level_is_made_ready_shown_named_and_saved() {
     assert!(preparation(&harness).made.is_some() && !says(&harness, "Made of another level"));
     press(&mut harness, Role::Button, "Show the result");
     assert!(harness.query_by_role_and_label(Role::Image, "Shaded: For a solver").is_some());
+}
+
+#[test]
+fn the_names_of_ends_stand_neither_on_the_heading_nor_on_each_other() {
+    let (mut harness, _) = seen(|| app(DESKTOP));
+    settle(&mut harness);
+    press(&mut harness, Role::DisclosureTriangle, "For a solver");
+    press(&mut harness, Role::Button, "Make ready");
+    settle(&mut harness);
+    let names = preparation(&harness).names();
+    for size in [DESKTOP, PHONE] {
+        harness.set_size(size.into());
+        settle(&mut harness);
+        let mut written: Vec<(String, egui::Rect)> = Vec::new();
+        for clipped in &harness.output().shapes {
+            let egui::Shape::Text(text) = &clipped.shape else { continue };
+            let (words, place) = (text.galley.text(), text.visual_bounding_rect());
+            let is_heading = words == "Shaded" || words.starts_with("For a solver: ");
+            let is_of_view = is_heading || names[1..].iter().any(|name| name == words);
+            // A halo is the same letters a point aside.
+            let is_halo = text.override_text_color.is_some() || !clipped.clip_rect.intersects(place);
+            if is_of_view && !is_halo {
+                written.push((words.to_owned(), place));
+            }
+        }
+        if let Some(folder) = std::env::var_os("LUMEN_SHOTS") {
+            let name = std::path::Path::new(&folder).join(format!("solver-{}.png", size[0]));
+            harness.render().unwrap().save(name).unwrap();
+        }
+        assert!(written.iter().filter(|(words, _)| names.contains(words)).count() > 2, "{written:?}");
+        for (i, (one, place)) in written.iter().enumerate() {
+            for (other, beside) in &written[..i] {
+                assert!(!place.shrink(0.5).intersects(beside.shrink(0.5)), "{one} stands on {other} at {size:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wrap_is_asked_for_with_its_tolerance() {
+    let (mut harness, memory) = open();
+    open_file(&mut harness, &memory, "tube.obj", tube(3.0, 40.0, 0.8));
+    settle(&mut harness);
+    press(&mut harness, Role::CheckBox, "Wrap it watertight");
+    assert_eq!(preparation(&harness).plan, Plan { wrap: Some(0.5), ..Plan::flow() });
+    assert!(harness.query_by_role_and_label(Role::Slider, "Tolerance").is_some());
+    press(&mut harness, Role::Button, "Make ready");
+    settle(&mut harness);
+    let made = preparation(&harness).made.as_ref().unwrap();
+    assert!(made.ready.fate.is_ready() && made.ready.patches.len() == 3, "{:?}", made.ready.notes);
+    assert!(says(&harness, "The surface is wrapped, at most"));
 }
 
 #[test]
