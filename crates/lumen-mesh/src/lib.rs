@@ -66,7 +66,7 @@ pub use nearest::{Nearest, SurfaceIndex};
 pub use refit::refitted;
 pub use roughness::{Roughness, roughness};
 pub use roughness::{bends, summarise_bends};
-pub use self_intersections::self_intersections;
+pub use self_intersections::{self_intersections, self_intersections_in};
 pub use self_intersections::{Crossing, Indexed};
 pub use shuffle::shuffled;
 pub use topology::opposite;

@@ -6,11 +6,13 @@
 //! A vertex on a feature curve splits, collapses and relaxes along the curve alone, a corner stays.
 
 use glam::Vec3;
-use lumen_mesh::{Nearest, SurfaceIndex, parallel};
+use lumen_mesh::SurfaceIndex;
 
 use super::features::Curves;
-use super::net::{CORNER, FREE, NONE, Net, next, prev};
-use super::triangle::{doubled, may_become, quality, sharpness};
+use super::measure::Target;
+use super::net::{CORNER, FREE, Foot, NONE, Net, next, prev};
+use super::triangle::{doubled, may_become, quality, sharpness, surely_may_become};
+use super::walk::Walk;
 
 /// An edge above this many wanted lengths is split, squared.
 pub(super) const LONG: f32 = 16.0 / 9.0;
@@ -28,8 +30,6 @@ const FEW: usize = 200;
 const DAMPING: f32 = 0.5;
 /// A vertex that would go by less than this part of a wanted length stays.
 const AT_REST: f32 = 0.02;
-/// Vertices that one thread relaxes at a time.
-const CHUNK: usize = 2048;
 /// A flip makes no triangle of a lesser quality than this, unless it was there.
 const FLIP_QUALITY: f32 = 0.3;
 /// Cosine of the most that two faces turn at an edge that a flip makes, or is made of: 45 degrees.
@@ -45,6 +45,8 @@ pub(super) struct Original {
     pub(super) patch: Vec<u32>,
     /// An index of them.
     pub(super) index: SurfaceIndex,
+    /// A way over them.
+    pub(super) walk: Walk,
     /// Feature curves.
     pub(super) curves: Curves,
     /// Wanted lengths at its vertices, in mm.
@@ -55,7 +57,8 @@ pub(super) struct Original {
 #[derive(Clone, Copy)]
 pub(super) struct Place {
     at: Vec3,
-    foot: Nearest,
+    foot: Foot,
+    near: u32,
     size: f32,
 }
 
@@ -72,37 +75,48 @@ impl Place {
 }
 
 impl Original {
+    /// The surface to measure distances from.
+    pub(super) fn to_measure(&self) -> Target<'_> {
+        Target { walk: &self.walk, index: &self.index }
+    }
+
     /// The place of the same curve, or of the same patch, that is nearest to `p`, for a vertex that is there or near.
     pub(super) fn project(&self, net: &Net, v: u32, p: Vec3) -> Option<Place> {
-        let kind = net.kind[v as usize];
-        let (foot, corners) = match kind {
-            CORNER => return None,
-            FREE => {
-                let mut found = match &net.foot[v as usize] {
-                    Some(last) => self.index.nearest_from(p, last)?,
-                    None => self.index.nearest(p)?,
-                };
-                // Where two walls nearly touch, the nearest may be the other one, which faces the other way.
-                let facing = facing(net, v);
-                let is_own = |t: u32| self.normals[t as usize].dot(facing) >= 0.0;
-                if !is_own(found.triangle) {
-                    found = self.index.nearest_of(p, is_own).filter(|own| own.distance <= net.size[v as usize])?;
-                }
-                let patch = net.patch[(net.out[v as usize] / 3) as usize];
-                if self.patch[found.triangle as usize] != patch {
-                    return None;
-                }
-                (found, self.triangles[found.triangle as usize])
-            }
+        match net.kind[v as usize] {
+            CORNER => None,
+            FREE => self.project_free(net, v, p, facing(net, v)),
             curve => {
                 let found = self.curves.nearest(p, curve)?;
-                let [a, b] = self.curves.segments[found.triangle as usize];
-                (found, [a, b, b])
+                let [a, b] = self.curves.segments[found.triangle as usize].map(|v| self.lengths[v as usize]);
+                let [u, v, w] = found.barycentric;
+                let foot = Foot { on: found.triangle, weights: [u, v + w, 0.0] };
+                Some(Place { at: found.point, foot, near: NONE, size: a * u + b * (v + w) })
             }
+        }
+    }
+
+    /// As [`Self::project`], for a vertex of no curve where the surface faces there.
+    fn project_free(&self, net: &Net, v: u32, p: Vec3, facing: Vec3) -> Option<Place> {
+        let is_own = |t: u32| self.normals[t as usize].dot(facing) >= 0.0;
+        let size = net.size[v as usize];
+        let found = self.walk.from(net.near[v as usize], p, 0.0);
+        let (on, at, weights) = if found.squared <= f64::from(size * size) && is_own(found.triangle) {
+            (found.triangle, found.point, found.weights)
+        } else {
+            let mut found = self.index.nearest(p)?;
+            // Where two walls nearly touch, the nearest may be the other one, which faces the other way.
+            if !is_own(found.triangle) {
+                found = self.index.nearest_of(p, is_own).filter(|own| own.distance <= size)?;
+            }
+            (found.triangle, found.point, found.barycentric)
         };
-        let [a, b, c] = corners.map(|v| self.lengths[v as usize]);
-        let [u, v, w] = foot.barycentric;
-        Some(Place { at: foot.point, foot, size: a * u + b * v + c * w })
+        let patch = net.patch[(net.out[v as usize] / 3) as usize];
+        if self.patch[on as usize] != patch {
+            return None;
+        }
+        let [a, b, c] = self.triangles[on as usize].map(|v| self.lengths[v as usize]);
+        let [x, y, z] = weights;
+        Some(Place { at, foot: Foot { on, weights }, near: on, size: a * x + b * y + c * z })
     }
 }
 
@@ -115,7 +129,8 @@ pub(super) fn facing(net: &Net, v: u32) -> Vec3 {
 fn may_move(net: &Net, v: u32, p: Vec3) -> bool {
     net.around(v).all(|h| {
         let [b, c] = [next(h), prev(h)].map(|e| net.at[net.origin(e) as usize]);
-        may_become([net.at[v as usize], b, c], [p, b, c], || facing(net, v))
+        let (old, new) = ([net.at[v as usize], b, c], [p, b, c]);
+        surely_may_become(old, new) || may_become(old, new, || facing(net, v))
     })
 }
 
@@ -125,34 +140,52 @@ pub(super) fn settle(net: &mut Net, v: u32, place: &Place) -> bool {
     if may {
         net.at[v as usize] = place.at;
         net.size[v as usize] = place.size;
-        net.foot[v as usize] = Some(place.foot);
+        net.foot[v as usize] = place.foot;
         net.is_adrift[v as usize] = false;
+        if place.near != NONE {
+            net.near[v as usize] = place.near;
+        }
+        net.wake_ring(v);
     }
     may
 }
 
 /// Splits long edges until there are none, or more triangles than `most`.
 pub(super) fn split_long(net: &mut Net, original: &Original, most: usize) {
+    let is_long = |net: &Net, h: u32| net.is_edge(h) && net.stretch(h) > LONG;
+    let mut long: Vec<u32> = (0..net.half_edges()).filter(|&h| is_long(net, h)).collect();
     for _ in 0..SPLIT_PASSES {
         let mut count = 0;
-        let mut h = 0;
-        while h < net.half_edges() && net.triangle_count() < most {
-            if net.is_edge(h) {
-                let stretch = net.stretch(h);
-                if stretch > LONG && is_longest(net, h, stretch) && can_halve(net, h) {
-                    let m = net.split(h);
-                    if let Some(place) = original.project(net, m, net.at[m as usize]) {
-                        net.size[m as usize] = place.size;
-                        settle(net, m, &place);
-                    }
-                    count += 1;
-                }
+        // Those that a split makes come last.
+        let mut left = Vec::new();
+        let mut made = Vec::new();
+        for h in long {
+            if net.triangle_count() >= most {
+                return;
             }
-            h += 1;
+            let stretch = net.stretch(h);
+            if stretch <= LONG {
+                continue;
+            }
+            if !is_longest(net, h, stretch) || !can_halve(net, h) {
+                left.push(h);
+                continue;
+            }
+            let m = net.split(h);
+            if let Some(place) = original.project(net, m, net.at[m as usize]) {
+                net.size[m as usize] = place.size;
+                settle(net, m, &place);
+            }
+            made.extend(net.neighbours(m).map(|(_, h)| net.edge(h)));
+            count += 1;
         }
         if count == 0 {
             break;
         }
+        left.extend(made.into_iter().filter(|&h| is_long(net, h)));
+        left.sort_unstable();
+        left.dedup();
+        long = left;
     }
 }
 
@@ -169,11 +202,22 @@ fn is_longest(net: &Net, h: u32, stretch: f32) -> bool {
     is_longest_in(h) && (g == NONE || is_longest_in(g))
 }
 
-/// Collapses short edges.
-pub(super) fn collapse_short(net: &mut Net, longest: f32) {
+/// Collapses short edges around which something has changed `since` then.
+pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) {
+    let mut is_open = vec![false; net.at.len()];
+    for h in (0..net.half_edges()).filter(|&h| net.is_live(h)) {
+        let (v, w) = (net.origin(h), net.end(h));
+        if net.was_touched(v, since) || net.was_touched(w, since) {
+            is_open[v as usize] = true;
+            is_open[w as usize] = true;
+        }
+    }
+    let is_asked = |&h: &u32| net.is_edge(h) && (is_open[net.origin(h) as usize] || is_open[net.end(h) as usize]);
+    let mut edges: Vec<u32> = (0..net.half_edges()).filter(is_asked).collect();
     for _ in 0..COLLAPSE_PASSES {
         let mut count = 0;
-        for h in 0..net.half_edges() {
+        is_open.fill(false);
+        for h in edges {
             if !net.is_edge(h) || net.stretch(h) >= SHORT {
                 continue;
             }
@@ -183,8 +227,11 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32) {
                 ways.swap(0, 1);
             }
             for way in ways {
-                if way != NONE && net.can_collapse(way) && keeps_shape(net, way, longest) {
+                if way != NONE && keeps_lengths(net, way, longest) && net.can_collapse(way) && keeps_faces(net, way) {
+                    let left = net.end(way);
                     net.collapse(way);
+                    is_open[left as usize] = true;
+                    net.neighbours(left).for_each(|(n, _)| is_open[n as usize] = true);
                     count += 1;
                     break;
                 }
@@ -193,24 +240,35 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32) {
         if count * FEW <= net.triangle_count() {
             break;
         }
+        edges = Vec::new();
+        for v in (0..net.at.len() as u32).filter(|&v| is_open[v as usize] && net.out[v as usize] != NONE) {
+            // An edge between two of them comes once.
+            let is_first = |n: u32| v < n || !is_open[n as usize];
+            edges.extend(net.neighbours(v).filter(|&(n, _)| is_first(n)).map(|(_, h)| net.edge(h)));
+        }
     }
 }
 
-/// Whether the collapse of an edge to its end turns no face over and makes no edge longer than `longest`, squared, in
-/// wanted lengths.
-pub(super) fn keeps_shape(net: &Net, h: u32, longest: f32) -> bool {
+/// Whether the collapse of an edge to its end turns no face over.
+pub(super) fn keeps_faces(net: &Net, h: u32) -> bool {
     let (v, w) = (net.origin(h), net.end(h));
-    let target = net.at[w as usize];
-    let is_kept = net.around(v).all(|e| {
+    let (start, target) = (net.at[v as usize], net.at[w as usize]);
+    net.around(v).all(|e| {
         let [b, c] = [net.end(e), net.apex(e)];
         let [p, q] = [b, c].map(|v| net.at[v as usize]);
-        b == w || c == w || may_become([net.at[v as usize], p, q], [target, p, q], || facing(net, v))
-    });
-    is_kept && net.neighbours(v).all(|(n, _)| n == w || net.stretch_between(n, w) <= longest)
+        b == w || c == w || may_become([start, p, q], [target, p, q], || facing(net, v))
+    })
 }
 
-/// Flips edges where the numbers of neighbours come nearer to what they should be, six and four at a rim.
-pub(super) fn flip_to_valence(net: &mut Net) {
+/// Whether the collapse of an edge to its end makes no edge longer than `longest`, squared, in wanted lengths.
+pub(super) fn keeps_lengths(net: &Net, h: u32, longest: f32) -> bool {
+    let (v, w) = (net.origin(h), net.end(h));
+    net.neighbours(v).all(|(n, _)| n == w || net.stretch_between(n, w) <= longest)
+}
+
+/// Flips edges where the numbers of neighbours come nearer to what they should be, six and four at a rim, and something
+/// has changed `since` then.
+pub(super) fn flip_to_valence(net: &mut Net, since: u32) {
     let mut excess = vec![-6i32; net.at.len()];
     for h in (0..net.half_edges()).filter(|&h| net.is_live(h)) {
         let v = net.origin(h) as usize;
@@ -219,7 +277,7 @@ pub(super) fn flip_to_valence(net: &mut Net) {
         excess[v] += if net.twin(h) == NONE { 3 } else { 0 };
     }
     for h in 0..net.half_edges() {
-        let Some(ends) = quad(net, h) else { continue };
+        let Some(ends) = quad(net, h).filter(|ends| ends.iter().any(|&v| net.was_touched(v, since))) else { continue };
         let gain = |v: u32, change: i32| {
             if net.kind[v as usize] == CORNER {
                 return 0;
@@ -238,13 +296,13 @@ pub(super) fn flip_to_valence(net: &mut Net) {
     }
 }
 
-/// Flips edges where the least angle of the two triangles grows.
-pub(super) fn flip_to_angles(net: &mut Net) -> usize {
-    let mut count = 0;
+/// Flips edges where the least angle of the two triangles grows, and something has changed `since` then.
+pub(super) fn flip_to_angles(net: &mut Net, since: u32) {
     for h in 0..net.half_edges() {
-        count += usize::from(flip_if_wider(net, h));
+        if quad(net, h).is_some_and(|ends| ends.iter().any(|&v| net.was_touched(v, since))) {
+            flip_if_wider(net, h);
+        }
     }
-    count
 }
 
 /// Flips an edge if the least angle of its two triangles grows.
@@ -284,85 +342,67 @@ fn may_flip(net: &Net, [v, w, a, b]: [u32; 4], least: f32) -> bool {
     is_flat && turn && worst > least.min(was) && worst > 1e-4 && !net.are_neighbours(a, b)
 }
 
-/// Where a vertex goes.
-enum Step {
-    Stay,
-    /// Beside the surface.
-    Drift(Vec3),
-    Settle(Place),
-}
-
-/// Moves vertices along the surface to the middle of their triangles, each weighted by its area in wanted lengths; free
-/// ones are put back on the surface if `is_last`.
-pub(super) fn relax(net: &mut Net, original: &Original, is_last: bool) {
-    let steps = parallel::map_ranges(net.at.len(), CHUNK, |vertices| {
-        let step = |v: usize| {
-            if net.out[v] == NONE {
-                return Step::Stay;
-            }
-            let Some(p) = relaxed(net, v as u32) else { return Step::Stay };
-            let is_at_rest = p.distance(net.at[v]) < AT_REST * net.size[v];
-            if net.kind[v] == FREE && !is_last {
-                return if is_at_rest { Step::Stay } else { Step::Drift(p) };
-            }
-            if is_at_rest && !net.is_adrift[v] {
-                return Step::Stay;
-            }
-            original.project(net, v as u32, p).map_or(Step::Stay, Step::Settle)
+/// Moves the vertices that are awake along the surface to the middle of their triangles, each weighted by its area in
+/// wanted lengths, one after the other.
+pub(super) fn relax(net: &mut Net, original: &Original) {
+    let mut ring = Vec::new();
+    for v in 0..net.at.len() as u32 {
+        if net.out[v as usize] == NONE || !net.is_awake[v as usize] {
+            continue;
+        }
+        net.is_awake[v as usize] = false;
+        let is_free = net.kind[v as usize] == FREE;
+        let Some((p, facing)) = (if is_free { relaxed(net, v, &mut ring) } else { relaxed_on_curve(net, v) }) else {
+            continue;
         };
-        vertices.map(step).collect::<Vec<Step>>()
-    });
-    for (v, step) in steps.into_iter().flatten().enumerate() {
-        match step {
-            Step::Stay => {}
-            Step::Drift(p) => {
-                if may_move(net, v as u32, p) {
-                    net.at[v] = p;
-                    net.is_adrift[v] = true;
-                }
-            }
-            Step::Settle(place) => {
-                if !settle(net, v as u32, &place) && net.is_adrift[v] {
-                    // It is back on the surface at least.
-                    if let Some(place) = original.project(net, v as u32, net.at[v]) {
-                        settle(net, v as u32, &place);
-                    }
-                }
+        let is_at_rest = p.distance_squared(net.at[v as usize]) < (AT_REST * net.size[v as usize]).powi(2);
+        if is_at_rest && !net.is_adrift[v as usize] {
+            continue;
+        }
+        let place = if is_free { original.project_free(net, v, p, facing) } else { original.project(net, v, p) };
+        let Some(place) = place else { continue };
+        if !settle(net, v, &place) && net.is_adrift[v as usize] {
+            // It is back on the surface at least.
+            if let Some(place) = original.project(net, v, net.at[v as usize]) {
+                settle(net, v, &place);
             }
         }
     }
 }
 
-/// Where a vertex would go, not yet on the surface.
-fn relaxed(net: &Net, v: u32) -> Option<Vec3> {
-    let p = net.at[v as usize];
-    match net.kind[v as usize] {
-        CORNER => None,
-        FREE => {
-            let (mut sum, mut weights, mut normal) = (Vec3::ZERO, 0.0, Vec3::ZERO);
-            for h in net.around(v) {
-                let vertices = [h, next(h), prev(h)].map(|e| net.origin(e) as usize);
-                let [_, b, c] = vertices.map(|v| net.at[v]);
-                let size = vertices.iter().map(|&v| net.size[v]).sum::<f32>();
-                let area = doubled([p, b, c]);
-                let weight = area.length() / (size * size);
-                sum += ((b - p) + (c - p)) / 3.0 * weight;
-                weights += weight;
-                normal += area;
-            }
-            let (step, normal) = (sum / weights, normal.normalize_or_zero());
-            let along = step - normal * step.dot(normal);
-            along.is_finite().then(|| p + along * DAMPING)
-        }
-        _ => {
-            let [a, b] = net.along_curve(v)?;
-            let [to_a, to_b] = [a, b].map(|n| net.at[n as usize] - p);
-            let [size_a, size_b] = [a, b].map(|n| net.size[n as usize] + net.size[v as usize]);
-            let (long_a, long_b) = (to_a.length(), to_b.length());
-            let step = (long_a + long_b) * size_a / (size_a + size_b) - long_a;
-            let along = if step > 0.0 { to_b / long_b } else { to_a / long_a };
-            let moved = p + along * (step.abs() * DAMPING);
-            moved.is_finite().then_some(moved)
-        }
+/// Where a vertex of no curve would go, not yet on the surface, and where that faces; `ring` is room for its neighbours.
+fn relaxed(net: &Net, v: u32, ring: &mut Vec<(Vec3, f32)>) -> Option<(Vec3, Vec3)> {
+    let (p, size) = (net.at[v as usize], net.size[v as usize]);
+    ring.clear();
+    let beside = |n: u32| (net.at[n as usize] - p, net.size[n as usize]);
+    ring.extend(net.neighbours(v).map(|(n, _)| beside(n)));
+    if !net.is_rim(v) {
+        ring.push(ring[0]);
     }
+    let (mut sum, mut weights, mut normal) = (Vec3::ZERO, 0.0, Vec3::ZERO);
+    for pair in ring.windows(2) {
+        let [(b, size_b), (c, size_c)] = [pair[0], pair[1]];
+        let size = size + size_b + size_c;
+        let area = b.cross(c);
+        let weight = area.length() / (size * size);
+        sum += (b + c) * weight;
+        weights += weight;
+        normal += area;
+    }
+    let step = sum / (3.0 * weights);
+    let along = step - normal * (step.dot(normal) / normal.length_squared().max(f32::MIN_POSITIVE));
+    along.is_finite().then(|| (p + along * DAMPING, normal))
+}
+
+/// Where a vertex of a curve would go, not yet on it.
+fn relaxed_on_curve(net: &Net, v: u32) -> Option<(Vec3, Vec3)> {
+    let p = net.at[v as usize];
+    let [a, b] = net.along_curve(v).filter(|_| net.kind[v as usize] != CORNER)?;
+    let [to_a, to_b] = [a, b].map(|n| net.at[n as usize] - p);
+    let [size_a, size_b] = [a, b].map(|n| net.size[n as usize] + net.size[v as usize]);
+    let (long_a, long_b) = (to_a.length(), to_b.length());
+    let step = (long_a + long_b) * size_a / (size_a + size_b) - long_a;
+    let along = if step > 0.0 { to_b / long_b } else { to_a / long_a };
+    let moved = p + along * (step.abs() * DAMPING);
+    moved.is_finite().then_some((moved, Vec3::ZERO))
 }

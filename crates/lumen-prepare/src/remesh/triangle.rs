@@ -47,3 +47,18 @@ pub(super) fn may_become(old: [Vec3; 3], new: [Vec3; 3], facing: impl FnOnce() -
     let is_kept = normal.dot(reference) > least * normal.length() * reference.length();
     is_kept && after > (before * 0.9).min(0.1)
 }
+
+/// Whether a triangle may become another by far: as [`may_become`] for one that neither was a sliver nor becomes one, found
+/// without a root.
+#[inline]
+pub(super) fn surely_may_become(old: [Vec3; 3], new: [Vec3; 3]) -> bool {
+    let sides = |[a, b, c]: [Vec3; 3]| a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
+    let (before, after) = (doubled(old), doubled(new));
+    let (square_before, square_after) = (before.length_squared(), after.length_squared());
+    let (dot, sides_before, sides_after) = (before.dot(after), sides(old), sides(new));
+    // A quality of 0.1 is a square of 0.01, and 12 times the squared doubled area over that of the sides.
+    dot > 0.0
+        && dot * dot > 1.01 * MOST_TURN * MOST_TURN * square_before * square_after
+        && 12.0 * square_before > 0.01 * sides_before * sides_before
+        && 12.0 * square_after > 0.011 * sides_after * sides_after
+}
