@@ -16,6 +16,7 @@ mod clean;
 mod features;
 mod measure;
 mod net;
+mod ring;
 mod sizing;
 mod steps;
 #[cfg(test)]
@@ -397,21 +398,26 @@ fn reduce(coarse: &[u32], original: &Original, sizing: &Sizing, lengths: &mut [f
     is_reduced
 }
 
-/// Looks the wanted lengths up again.
+/// Looks the wanted lengths up again, and wakes the vertices at which they are others.
 fn resize(net: &mut Net, original: &Original) {
-    for v in 0..net.at.len() {
-        if net.out[v] == NONE {
+    net.clock += 1;
+    for v in 0..net.at.len() as u32 {
+        let (foot, kind) = (net.foot[v as usize], net.kind[v as usize]);
+        if net.out[v as usize] == NONE {
             continue;
         }
-        let first = net.first[v];
-        if net.foot[v].on == NONE && first != NONE {
-            net.size[v] = original.lengths[v];
-        } else if let Some(place) = original.project(net, v as u32, net.at[v]) {
-            net.size[v] = place.size();
+        let size = if foot.on != NONE {
+            original.size_at(kind, foot)
+        } else if net.first[v as usize] != NONE {
+            original.lengths[v as usize]
+        } else {
+            original.project(net, v, net.at[v as usize]).map_or(net.size[v as usize], |place| place.size())
+        };
+        if size != net.size[v as usize] {
+            net.size[v as usize] = size;
+            net.wake_ring(v);
         }
     }
-    net.clock += 1;
-    net.wake_all();
 }
 
 /// A net as a list of triangles.

@@ -476,12 +476,6 @@ impl Net {
         self.for_each_neighbour(v, |net, n| net.is_awake[n as usize] = true);
     }
 
-    /// Notes that all vertices changed.
-    pub(super) fn wake_all(&mut self) {
-        self.is_awake.fill(true);
-        self.touched.fill(self.clock);
-    }
-
     fn for_each_neighbour(&mut self, v: u32, mut each: impl FnMut(&mut Self, u32)) {
         let first = self.out[v as usize];
         let mut h = first;

@@ -11,7 +11,8 @@ use lumen_mesh::SurfaceIndex;
 use super::features::Curves;
 use super::measure::Target;
 use super::net::{CORNER, FREE, Foot, NONE, Net, next, prev};
-use super::triangle::{doubled, may_become, quality, sharpness, surely_may_become};
+use super::ring::Ring;
+use super::triangle::{doubled, may_become, quality, sharpness};
 use super::walk::Walk;
 
 /// An edge above this many wanted lengths is split, squared.
@@ -87,10 +88,9 @@ impl Original {
             FREE => self.project_free(net, v, p, facing(net, v)),
             curve => {
                 let found = self.curves.nearest(p, curve)?;
-                let [a, b] = self.curves.segments[found.triangle as usize].map(|v| self.lengths[v as usize]);
                 let [u, v, w] = found.barycentric;
                 let foot = Foot { on: found.triangle, weights: [u, v + w, 0.0] };
-                Some(Place { at: found.point, foot, near: NONE, size: a * u + b * (v + w) })
+                Some(Place { at: found.point, foot, near: NONE, size: self.size_at(curve, foot) })
             }
         }
     }
@@ -114,9 +114,21 @@ impl Original {
         if self.patch[on as usize] != patch {
             return None;
         }
-        let [a, b, c] = self.triangles[on as usize].map(|v| self.lengths[v as usize]);
-        let [x, y, z] = weights;
-        Some(Place { at, foot: Foot { on, weights }, near: on, size: a * x + b * y + c * z })
+        let foot = Foot { on, weights };
+        Some(Place { at, foot, near: on, size: self.size_at(FREE, foot) })
+    }
+
+    /// The wanted length at a foot, of a vertex of this kind.
+    pub(super) fn size_at(&self, kind: u32, foot: Foot) -> f32 {
+        let at = |v: u32| self.lengths[v as usize];
+        let [x, y, z] = foot.weights;
+        if kind == FREE {
+            let [a, b, c] = self.triangles[foot.on as usize].map(at);
+            a * x + b * y + c * z
+        } else {
+            let [a, b] = self.curves.segments[foot.on as usize].map(at);
+            a * x + b * y
+        }
     }
 }
 
@@ -129,8 +141,7 @@ pub(super) fn facing(net: &Net, v: u32) -> Vec3 {
 fn may_move(net: &Net, v: u32, p: Vec3) -> bool {
     net.around(v).all(|h| {
         let [b, c] = [next(h), prev(h)].map(|e| net.at[net.origin(e) as usize]);
-        let (old, new) = ([net.at[v as usize], b, c], [p, b, c]);
-        surely_may_become(old, new) || may_become(old, new, || facing(net, v))
+        may_become([net.at[v as usize], b, c], [p, b, c], || facing(net, v))
     })
 }
 
@@ -138,16 +149,20 @@ fn may_move(net: &Net, v: u32, p: Vec3) -> bool {
 pub(super) fn settle(net: &mut Net, v: u32, place: &Place) -> bool {
     let may = may_move(net, v, place.at);
     if may {
-        net.at[v as usize] = place.at;
-        net.size[v as usize] = place.size;
-        net.foot[v as usize] = place.foot;
-        net.is_adrift[v as usize] = false;
-        if place.near != NONE {
-            net.near[v as usize] = place.near;
-        }
-        net.wake_ring(v);
+        put(net, v, place);
     }
     may
+}
+
+fn put(net: &mut Net, v: u32, place: &Place) {
+    net.at[v as usize] = place.at;
+    net.size[v as usize] = place.size;
+    net.foot[v as usize] = place.foot;
+    net.is_adrift[v as usize] = false;
+    if place.near != NONE {
+        net.near[v as usize] = place.near;
+    }
+    net.wake_ring(v);
 }
 
 /// Splits long edges until there are none, or more triangles than `most`.
@@ -342,67 +357,49 @@ fn may_flip(net: &Net, [v, w, a, b]: [u32; 4], least: f32) -> bool {
     is_flat && turn && worst > least.min(was) && worst > 1e-4 && !net.are_neighbours(a, b)
 }
 
-/// Moves the vertices that are awake along the surface to the middle of their triangles, each weighted by its area in
-/// wanted lengths, one after the other.
+/// Moves the vertices that are awake along the surface to the middle of their triangles, one after the other.
 pub(super) fn relax(net: &mut Net, original: &Original) {
-    let mut ring = Vec::new();
+    let mut ring = Ring::default();
     for v in 0..net.at.len() as u32 {
         if net.out[v as usize] == NONE || !net.is_awake[v as usize] {
             continue;
         }
         net.is_awake[v as usize] = false;
-        let is_free = net.kind[v as usize] == FREE;
-        let Some((p, facing)) = (if is_free { relaxed(net, v, &mut ring) } else { relaxed_on_curve(net, v) }) else {
-            continue;
-        };
-        let is_at_rest = p.distance_squared(net.at[v as usize]) < (AT_REST * net.size[v as usize]).powi(2);
-        if is_at_rest && !net.is_adrift[v as usize] {
+        let p = net.at[v as usize];
+        let is_ring = net.kind[v as usize] == FREE && ring.gather(net, v);
+        let (way, facing) = if is_ring { ring.pull() } else { (way_along_curve(net, v), Vec3::ZERO) };
+        let rest = AT_REST * net.size[v as usize];
+        let is_adrift = net.is_adrift[v as usize];
+        let way = way * DAMPING;
+        // False for what is no number.
+        let has_way = way.length_squared() >= rest * rest;
+        if !has_way && !is_adrift {
             continue;
         }
-        let place = if is_free { original.project_free(net, v, p, facing) } else { original.project(net, v, p) };
+        let to = if has_way { p + way } else { p };
+        let place = if is_ring { original.project_free(net, v, to, facing) } else { original.project(net, v, to) };
         let Some(place) = place else { continue };
-        if !settle(net, v, &place) && net.is_adrift[v as usize] {
+        if is_ring && ring.surely_allows(place.at - p) {
+            put(net, v, &place);
+        } else if !settle(net, v, &place) && is_adrift {
             // It is back on the surface at least.
-            if let Some(place) = original.project(net, v, net.at[v as usize]) {
+            if let Some(place) = original.project(net, v, p) {
                 settle(net, v, &place);
             }
         }
     }
 }
 
-/// Where a vertex of no curve would go, not yet on the surface, and where that faces; `ring` is room for its neighbours.
-fn relaxed(net: &Net, v: u32, ring: &mut Vec<(Vec3, f32)>) -> Option<(Vec3, Vec3)> {
-    let (p, size) = (net.at[v as usize], net.size[v as usize]);
-    ring.clear();
-    let beside = |n: u32| (net.at[n as usize] - p, net.size[n as usize]);
-    ring.extend(net.neighbours(v).map(|(n, _)| beside(n)));
-    if !net.is_rim(v) {
-        ring.push(ring[0]);
-    }
-    let (mut sum, mut weights, mut normal) = (Vec3::ZERO, 0.0, Vec3::ZERO);
-    for pair in ring.windows(2) {
-        let [(b, size_b), (c, size_c)] = [pair[0], pair[1]];
-        let size = size + size_b + size_c;
-        let area = b.cross(c);
-        let weight = area.length() / (size * size);
-        sum += (b + c) * weight;
-        weights += weight;
-        normal += area;
-    }
-    let step = sum / (3.0 * weights);
-    let along = step - normal * (step.dot(normal) / normal.length_squared().max(f32::MIN_POSITIVE));
-    along.is_finite().then(|| (p + along * DAMPING, normal))
-}
-
-/// Where a vertex of a curve would go, not yet on it.
-fn relaxed_on_curve(net: &Net, v: u32) -> Option<(Vec3, Vec3)> {
+/// Where a vertex of a curve would go, seen from it, not yet on the curve.
+fn way_along_curve(net: &Net, v: u32) -> Vec3 {
     let p = net.at[v as usize];
-    let [a, b] = net.along_curve(v).filter(|_| net.kind[v as usize] != CORNER)?;
+    if matches!(net.kind[v as usize], CORNER | FREE) {
+        return Vec3::ZERO;
+    }
+    let Some([a, b]) = net.along_curve(v) else { return Vec3::ZERO };
     let [to_a, to_b] = [a, b].map(|n| net.at[n as usize] - p);
     let [size_a, size_b] = [a, b].map(|n| net.size[n as usize] + net.size[v as usize]);
     let (long_a, long_b) = (to_a.length(), to_b.length());
     let step = (long_a + long_b) * size_a / (size_a + size_b) - long_a;
-    let along = if step > 0.0 { to_b / long_b } else { to_a / long_a };
-    let moved = p + along * (step.abs() * DAMPING);
-    moved.is_finite().then_some((moved, Vec3::ZERO))
+    (if step > 0.0 { to_b / long_b } else { to_a / long_a }) * step.abs()
 }

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 /// Cosine of the most that a face may turn in a change: 60 degrees.
-const MOST_TURN: f32 = 0.5;
+pub(super) const MOST_TURN: f32 = 0.5;
 /// A triangle whose quality is below this has no normal to compare with.
 const THIN: f32 = 0.02;
 
@@ -46,19 +46,4 @@ pub(super) fn may_become(old: [Vec3; 3], new: [Vec3; 3], facing: impl FnOnce() -
     let (reference, least) = if before > THIN { (doubled(old), MOST_TURN) } else { (facing(), 0.0) };
     let is_kept = normal.dot(reference) > least * normal.length() * reference.length();
     is_kept && after > (before * 0.9).min(0.1)
-}
-
-/// Whether a triangle may become another by far: as [`may_become`] for one that neither was a sliver nor becomes one, found
-/// without a root.
-#[inline]
-pub(super) fn surely_may_become(old: [Vec3; 3], new: [Vec3; 3]) -> bool {
-    let sides = |[a, b, c]: [Vec3; 3]| a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
-    let (before, after) = (doubled(old), doubled(new));
-    let (square_before, square_after) = (before.length_squared(), after.length_squared());
-    let (dot, sides_before, sides_after) = (before.dot(after), sides(old), sides(new));
-    // A quality of 0.1 is a square of 0.01, and 12 times the squared doubled area over that of the sides.
-    dot > 0.0
-        && dot * dot > 1.01 * MOST_TURN * MOST_TURN * square_before * square_after
-        && 12.0 * square_before > 0.01 * sides_before * sides_before
-        && 12.0 * square_after > 0.011 * sides_after * sides_after
 }
