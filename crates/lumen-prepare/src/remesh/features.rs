@@ -171,9 +171,11 @@ fn bends_widely(net: &Net, index: &SurfaceIndex, h: u32, normals: [DVec3; 2], li
     let size = f64::from(f32::midpoint(net.size[net.origin(h) as usize], net.size[net.end(h) as usize]));
     let [one, other] = [normals[0].cross(along), along.cross(normals[1])].map(|away| {
         let mut sum = DVec3::ZERO;
+        let mut last: Option<Nearest> = None;
         for (out, aside) in SAMPLES {
-            let p = middle + (away.normalize_or_zero() * out + along * aside) * (REACH_OF_CREASE * size);
-            if let Some(found) = index.nearest(p.as_vec3()) {
+            let p = (middle + (away.normalize_or_zero() * out + along * aside) * (REACH_OF_CREASE * size)).as_vec3();
+            last = last.map_or_else(|| index.nearest(p), |last| index.nearest_from(p, &last));
+            if let Some(found) = &last {
                 sum += doubled(net.corners(found.triangle)).as_dvec3().normalize_or_zero();
             }
         }

@@ -77,11 +77,6 @@ pub(super) struct Target<'a> {
 }
 
 impl Target<'_> {
-    /// The triangle nearest to `p`; `near` is one nearby.
-    pub(super) fn nearest(self, p: Vec3, near: u32) -> u32 {
-        self.nearest_below(p, self.walk.from(near, p, 0.0).squared).map_or(near, |(triangle, _)| triangle)
-    }
-
     /// The nearest triangle and its distance, where an upper bound of that is known, squared.
     fn nearest_below(self, p: Vec3, squared: f64) -> Option<(u32, f32)> {
         /// Against rounding.

@@ -40,14 +40,14 @@ use super::Patched;
 use crate::folds::{clashing, clashing_in};
 
 /// Rounds of the steps.
-const ROUNDS: usize = 7;
+const ROUNDS: usize = 5;
 /// The first rounds, in which a collapse may make edges that are split again: so even a grid of long triangles gets
 /// another pattern.
 const COARSE_ROUNDS: usize = 2;
 /// Rounds of relaxation and flips for the angles after those.
-const LAST_ROUNDS: usize = 3;
+const LAST_ROUNDS: usize = 2;
 /// Times that vertices are relaxed in a round.
-const RELAXATIONS: usize = 2;
+const RELAXATIONS: usize = 1;
 /// Rounds of the steps after wanted lengths were reduced.
 const REPAIR_ROUNDS: usize = 3;
 /// How often lengths are reduced at crossings, or beyond the bound on the deviation.
@@ -482,7 +482,7 @@ fn finished(
     let from = (0..mesh.triangles.len()).map(|t| {
         let corners = mesh.triangles[t].map(|v| vertices[v as usize]);
         let p = middle(mesh.corners(t));
-        let nearest = original.to_measure().nearest(p, net.near[corners[0] as usize]);
+        let nearest = original.walk.from(net.near[corners[0] as usize], p, 0.0).triangle;
         if original.patch[nearest as usize] == of_triangle[t] {
             return kept[nearest as usize];
         }

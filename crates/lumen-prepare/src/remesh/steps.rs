@@ -28,7 +28,7 @@ const COLLAPSE_PASSES: usize = 20;
 /// A pass that collapses fewer edges than this part of the triangles is the last one.
 const FEW: usize = 200;
 /// The part of its way to the middle of its neighbours that a vertex goes.
-const DAMPING: f32 = 0.5;
+const DAMPING: f32 = 0.9;
 /// A vertex that would go by less than this part of a wanted length stays.
 const AT_REST: f32 = 0.02;
 /// A flip makes no triangle of a lesser quality than this, unless it was there.
