@@ -12,6 +12,7 @@ use lumen_mesh::{Nearest, SurfaceIndex};
 
 use super::net::{CORNER, FREE, NONE, Net};
 use super::triangle::doubled;
+use super::walk::Walk;
 
 /// Faces that turn by more than this at an edge make it a crease; degrees.
 const CREASE_DEG: f64 = 50.0;
@@ -64,8 +65,8 @@ fn normal(net: &Net, t: u32) -> Option<DVec3> {
 }
 
 /// Finds the feature curves of `net`, whose sizes are known, and notes them in it.
-pub(super) fn find(net: &mut Net, index: &SurfaceIndex) -> Curves {
-    let mut is_crease = mark(net, index);
+pub(super) fn find(net: &mut Net, walk: &Walk) -> Curves {
+    let mut is_crease = mark(net, walk);
     let kinds = net.kind.clone();
     loop {
         drop_short_pieces(net, &mut is_crease);
@@ -89,7 +90,7 @@ pub(super) fn find(net: &mut Net, index: &SurfaceIndex) -> Curves {
 const UNNAMED: u32 = 0;
 
 /// Marks feature edges by [`UNNAMED`], and returns for each half-edge whether it is one as a crease alone.
-fn mark(net: &mut Net, index: &SurfaceIndex) -> Vec<bool> {
+fn mark(net: &mut Net, walk: &Walk) -> Vec<bool> {
     let normals: Vec<Option<DVec3>> = (0..net.patch.len() as u32).map(|t| normal(net, t)).collect();
     let limit = libm::cos(CREASE_DEG.to_radians());
     let mut is_crease = vec![false; net.origin.len()];
@@ -104,7 +105,7 @@ fn mark(net: &mut Net, index: &SurfaceIndex) -> Vec<bool> {
                 net.curve[g as usize] = UNNAMED;
             } else if let (Some(one), Some(other)) = (normals[t], normals[s])
                 && one.dot(other) < limit
-                && bends_widely(net, index, h, [one, other], limit)
+                && bends_widely(net, walk, h, [one, other], limit)
             {
                 net.curve[h as usize] = UNNAMED;
                 net.curve[g as usize] = UNNAMED;
@@ -133,6 +134,9 @@ fn unmark(net: &mut Net, is_crease: &mut [bool], is_weak: impl Fn(&Net, u32) -> 
 
 /// Drops connected creases that are shorter than [`SHORTEST`] together.
 fn drop_short_pieces(net: &mut Net, is_crease: &mut [bool]) {
+    if !is_crease.contains(&true) {
+        return;
+    }
     let mut pieces: Vec<u32> = (0..net.at.len() as u32).collect();
     let creases: Vec<u32> = (0..net.half_edges()).filter(|&h| is_crease[h as usize] && net.is_edge(h)).collect();
     for &h in &creases {
@@ -165,19 +169,17 @@ fn drop_weak(net: &mut Net, curves: &Curves, counts: &[u32], is_crease: &mut [bo
 
 /// Whether the surface at `h`, whose faces have these normals, turns as seen over a wanted edge: the mean normals of
 /// places to both sides, up to that far away.
-fn bends_widely(net: &Net, index: &SurfaceIndex, h: u32, normals: [DVec3; 2], limit: f64) -> bool {
+fn bends_widely(net: &Net, walk: &Walk, h: u32, normals: [DVec3; 2], limit: f64) -> bool {
     let [a, b] = [net.origin(h), net.end(h)].map(|v| net.at[v as usize].as_dvec3());
     let (middle, along) = (a.midpoint(b), (b - a).normalize_or_zero());
     let size = f64::from(f32::midpoint(net.size[net.origin(h) as usize], net.size[net.end(h) as usize]));
-    let [one, other] = [normals[0].cross(along), along.cross(normals[1])].map(|away| {
+    let sides = [(h / 3, normals[0].cross(along)), (net.twin(h) / 3, along.cross(normals[1]))];
+    let [one, other] = sides.map(|(mut triangle, away)| {
         let mut sum = DVec3::ZERO;
-        let mut last: Option<Nearest> = None;
         for (out, aside) in SAMPLES {
-            let p = (middle + (away.normalize_or_zero() * out + along * aside) * (REACH_OF_CREASE * size)).as_vec3();
-            last = last.map_or_else(|| index.nearest(p), |last| index.nearest_from(p, &last));
-            if let Some(found) = &last {
-                sum += doubled(net.corners(found.triangle)).as_dvec3().normalize_or_zero();
-            }
+            let p = middle + (away.normalize_or_zero() * out + along * aside) * (REACH_OF_CREASE * size);
+            triangle = walk.from(triangle, p.as_vec3(), 0.0).triangle;
+            sum += doubled(net.corners(triangle)).as_dvec3().normalize_or_zero();
         }
         sum.normalize_or_zero()
     });

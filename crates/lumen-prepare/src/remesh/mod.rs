@@ -222,7 +222,8 @@ pub async fn remesh_in_slices(
     net.size = lengths.iter().map(|&length| length.min(sizing.largest_mm) as f32).collect();
     let triangles: Vec<[u32; 3]> = net.origin.as_chunks::<3>().0.to_vec();
     let index = SurfaceIndex::new(&net.at, &triangles);
-    let curves = features::find(&mut net, &index);
+    let walk = Walk::on(&net, triangles.len(), |t| t);
+    let curves = features::find(&mut net, &walk);
     if let Some(deviation) = sizing.max_deviation_mm {
         sizing::bound_deviation(&net, deviation, sizing, &mut lengths);
     }
@@ -231,7 +232,6 @@ pub async fn remesh_in_slices(
     net.size = lengths.iter().map(|&length| length as f32).collect();
     let first = net.clone();
     let normals = triangles.iter().map(|t| doubled(t.map(|v| net.at[v as usize]))).collect();
-    let walk = Walk::on(&net, triangles.len(), |t| t);
     let mut original = Original { triangles, normals, patch, index, walk, curves, lengths: net.size.clone() };
 
     run(&mut net, &original, ROUNDS, COARSE_ROUNDS, &yielder.part(0.1..0.8)).await;

@@ -189,6 +189,12 @@ impl Net {
         self.patch.len() - self.spare.len()
     }
 
+    /// Whether a vertex is there.
+    #[inline]
+    pub(super) fn is_there(&self, v: u32) -> bool {
+        self.out[v as usize] != NONE
+    }
+
     /// Whether a half-edge, or the triangle that it is in, is there.
     #[inline]
     pub(super) fn is_live(&self, h: u32) -> bool {

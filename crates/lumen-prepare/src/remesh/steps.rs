@@ -219,21 +219,28 @@ fn is_longest(net: &Net, h: u32, stretch: f32) -> bool {
 
 /// Collapses short edges around which something has changed `since` then.
 pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) {
-    let mut is_open = vec![false; net.at.len()];
-    for h in (0..net.half_edges()).filter(|&h| net.is_live(h)) {
-        let (v, w) = (net.origin(h), net.end(h));
-        if net.was_touched(v, since) || net.was_touched(w, since) {
+    // Whether something around a vertex has changed; at first all is asked for.
+    let mut is_open = vec![since == 0; net.at.len()];
+    if since > 0 {
+        for v in (0..net.at.len() as u32).filter(|&v| net.is_there(v) && net.was_touched(v, since)) {
             is_open[v as usize] = true;
-            is_open[w as usize] = true;
+            net.neighbours(v).for_each(|(n, _)| is_open[n as usize] = true);
         }
     }
-    let is_asked = |&h: &u32| net.is_edge(h) && (is_open[net.origin(h) as usize] || is_open[net.end(h) as usize]);
+    let is_short = |net: &Net, h: u32| net.stretch(h) < SHORT;
+    let is_asked = |&h: &u32| {
+        net.is_edge(h)
+            && (is_open[net.origin(h) as usize] || is_open[net.end(h) as usize])
+            && is_short(net, h)
+    };
     let mut edges: Vec<u32> = (0..net.half_edges()).filter(is_asked).collect();
+    is_open.fill(false);
     for _ in 0..COLLAPSE_PASSES {
         let mut count = 0;
-        is_open.fill(false);
+        let mut open = Vec::new();
         for h in edges {
-            if !net.is_edge(h) || net.stretch(h) >= SHORT {
+            // What was listed may be gone or have become another.
+            if !net.is_edge(h) || !is_short(net, h) {
                 continue;
             }
             let mut ways = [h, net.twin(h)];
@@ -245,8 +252,11 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) {
                 if way != NONE && keeps_lengths(net, way, longest) && net.can_collapse(way) && keeps_faces(net, way) {
                     let left = net.end(way);
                     net.collapse(way);
-                    is_open[left as usize] = true;
-                    net.neighbours(left).for_each(|(n, _)| is_open[n as usize] = true);
+                    for v in net.neighbours(left).map(|(n, _)| n).chain([left]) {
+                        if !std::mem::replace(&mut is_open[v as usize], true) {
+                            open.push(v);
+                        }
+                    }
                     count += 1;
                     break;
                 }
@@ -255,12 +265,15 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) {
         if count * FEW <= net.triangle_count() {
             break;
         }
-        edges = Vec::new();
-        for v in (0..net.at.len() as u32).filter(|&v| is_open[v as usize] && net.out[v as usize] != NONE) {
+        open.retain(|&v| net.is_there(v));
+        edges = Vec::with_capacity(4 * open.len());
+        for &v in &open {
             // An edge between two of them comes once.
             let is_first = |n: u32| v < n || !is_open[n as usize];
-            edges.extend(net.neighbours(v).filter(|&(n, _)| is_first(n)).map(|(_, h)| net.edge(h)));
+            let short = net.neighbours(v).filter(|&(n, _)| is_first(n) && net.stretch_between(v, n) < SHORT);
+            edges.extend(short.map(|(_, h)| net.edge(h)));
         }
+        open.iter().for_each(|&v| is_open[v as usize] = false);
     }
 }
 
