@@ -39,8 +39,10 @@ use self::walk::Walk;
 use super::Patched;
 use crate::folds::{clashing, clashing_in};
 
-/// Rounds of the steps.
-const ROUNDS: usize = 5;
+/// Rounds of the steps, at most.
+const ROUNDS: usize = 9;
+/// A round that changes fewer triangles than this part of all is the last one.
+const FEW: usize = 25;
 /// The first rounds, in which a collapse may make edges that are split again: so even a grid of long triangles gets
 /// another pattern.
 const COARSE_ROUNDS: usize = 2;
@@ -323,17 +325,20 @@ async fn run(net: &mut Net, original: &Original, rounds: usize, coarse_rounds: u
     for round in 0..rounds {
         let done = round as f32 / all;
         net.clock += 1;
-        steps::split_long(net, original, 2 * MOST);
+        let mut changes = steps::split_long(net, original, 2 * MOST);
         yielder.rest(done).await;
         let longest = if round < coarse_rounds { steps::LONGER } else { steps::LONG };
         // The last of the coarse rounds leaves edges that may not be collapsed from then on.
         let since = std::mem::replace(&mut collapsed, net.clock + 1);
         net.clock += 1;
-        steps::collapse_short(net, longest, since);
+        changes += steps::collapse_short(net, longest, since);
         yielder.rest(done).await;
         let since = std::mem::replace(&mut flipped, net.clock);
-        steps::flip_to_valence(net, since);
+        changes += steps::flip_to_valence(net, since);
         relax(net, original, done, yielder).await;
+        if round >= coarse_rounds && FEW * changes < net.triangle_count() {
+            break;
+        }
     }
     // Angles were not asked for yet.
     flipped = 0;

@@ -165,8 +165,9 @@ fn put(net: &mut Net, v: u32, place: &Place) {
     net.wake_ring(v);
 }
 
-/// Splits long edges until there are none, or more triangles than `most`.
-pub(super) fn split_long(net: &mut Net, original: &Original, most: usize) {
+/// Splits long edges until there are none, or more triangles than `most`; returns how many triangles that made.
+pub(super) fn split_long(net: &mut Net, original: &Original, most: usize) -> usize {
+    let before = net.triangle_count();
     let is_long = |net: &Net, h: u32| net.is_edge(h) && net.stretch(h) > LONG;
     let mut long: Vec<u32> = (0..net.half_edges()).filter(|&h| is_long(net, h)).collect();
     for _ in 0..SPLIT_PASSES {
@@ -176,7 +177,7 @@ pub(super) fn split_long(net: &mut Net, original: &Original, most: usize) {
         let mut made = Vec::new();
         for h in long {
             if net.triangle_count() >= most {
-                return;
+                return net.triangle_count() - before;
             }
             let stretch = net.stretch(h);
             if stretch <= LONG {
@@ -202,6 +203,7 @@ pub(super) fn split_long(net: &mut Net, original: &Original, most: usize) {
         left.dedup();
         long = left;
     }
+    net.triangle_count() - before
 }
 
 /// Whether an edge is long enough for its middle to differ from its ends by more than rounding.
@@ -217,8 +219,9 @@ fn is_longest(net: &Net, h: u32, stretch: f32) -> bool {
     is_longest_in(h) && (g == NONE || is_longest_in(g))
 }
 
-/// Collapses short edges around which something has changed `since` then.
-pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) {
+/// Collapses short edges around which something has changed `since` then; returns how many triangles are gone by it.
+pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) -> usize {
+    let before = net.triangle_count();
     // Whether something around a vertex has changed; at first all is asked for.
     let mut is_open = vec![since == 0; net.at.len()];
     if since > 0 {
@@ -275,6 +278,7 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) {
         }
         open.iter().for_each(|&v| is_open[v as usize] = false);
     }
+    before - net.triangle_count()
 }
 
 /// Whether the collapse of an edge to its end turns no face over.
@@ -295,8 +299,9 @@ pub(super) fn keeps_lengths(net: &Net, h: u32, longest: f32) -> bool {
 }
 
 /// Flips edges where the numbers of neighbours come nearer to what they should be, six and four at a rim, and something
-/// has changed `since` then.
-pub(super) fn flip_to_valence(net: &mut Net, since: u32) {
+/// has changed `since` then; returns how many.
+pub(super) fn flip_to_valence(net: &mut Net, since: u32) -> usize {
+    let mut count = 0;
     let mut excess = vec![-6i32; net.at.len()];
     for h in (0..net.half_edges()).filter(|&h| net.is_live(h)) {
         let v = net.origin(h) as usize;
@@ -316,12 +321,14 @@ pub(super) fn flip_to_valence(net: &mut Net, since: u32) {
         let [v, w, a, b] = ends;
         if gain(v, -1) + gain(w, -1) + gain(a, 1) + gain(b, 1) > 0 && may_flip(net, ends, FLIP_QUALITY) {
             net.flip(h);
+            count += 1;
             excess[v as usize] -= 1;
             excess[w as usize] -= 1;
             excess[a as usize] += 1;
             excess[b as usize] += 1;
         }
     }
+    count
 }
 
 /// Flips edges where the least angle of the two triangles grows, and something has changed `since` then.
