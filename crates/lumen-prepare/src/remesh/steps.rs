@@ -12,7 +12,7 @@ use super::features::Curves;
 use super::measure::Target;
 use super::net::{CORNER, FREE, Foot, NONE, Net, next, prev};
 use super::ring::Ring;
-use super::triangle::{doubled, may_become, quality, sharpness};
+use super::triangle::{doubled, faces_along, may_become, quality, sharpness};
 use super::walk::Walk;
 
 /// An edge above this many wanted lengths is split, squared.
@@ -281,14 +281,17 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) -> usize {
     before - net.triangle_count()
 }
 
-/// Whether the collapse of an edge to its end turns no face over.
+/// Whether the collapse of an edge to its end turns no face over. A face that does turn, as those of a spike, may if it comes
+/// to face where the surface around both ends does.
 pub(super) fn keeps_faces(net: &Net, h: u32) -> bool {
     let (v, w) = (net.origin(h), net.end(h));
     let (start, target) = (net.at[v as usize], net.at[w as usize]);
+    let around = || facing(net, v) + facing(net, w);
     net.around(v).all(|e| {
         let [b, c] = [net.end(e), net.apex(e)];
         let [p, q] = [b, c].map(|v| net.at[v as usize]);
-        b == w || c == w || may_become([start, p, q], [target, p, q], || facing(net, v))
+        let new = [target, p, q];
+        b == w || c == w || may_become([start, p, q], new, || facing(net, v)) || faces_along(new, around())
     })
 }
 

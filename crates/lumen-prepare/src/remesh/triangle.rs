@@ -47,3 +47,10 @@ pub(super) fn may_become(old: [Vec3; 3], new: [Vec3; 3], facing: impl FnOnce() -
     let is_kept = normal.dot(reference) > least * normal.length() * reference.length();
     is_kept && after > (before * 0.9).min(0.1)
 }
+
+/// Whether a triangle is no sliver and faces within 60 degrees of `facing`.
+#[inline]
+pub(super) fn faces_along(corners: [Vec3; 3], facing: Vec3) -> bool {
+    let normal = doubled(corners);
+    quality(corners) > 0.1 && normal.dot(facing) > MOST_TURN * normal.length() * facing.length()
+}
