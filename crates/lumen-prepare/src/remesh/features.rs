@@ -4,7 +4,7 @@
 //! A crease is an edge at which the faces turn by more than [`CREASE_DEG`], and so does the surface to both sides of
 //! it, seen over a wanted edge: the steps of a voxel grid do not. An edge of a triangle so thin that it has no normal
 //! to speak of is no crease, nor is a connected piece of creases shorter than [`SHORTEST`] wanted edges, nor a chain
-//! that could not be resolved. Rims and borders always are features.
+//! that could not be resolved, be it too short or too near to another. Rims and borders always are features.
 
 use glam::{DVec3, Vec3};
 use lumen_mesh::disjoint_sets::{root, union};
@@ -22,6 +22,10 @@ const CORNER_DEG: f64 = 50.0;
 const SHORTEST: f64 = 6.0;
 /// Least length of a chain of creases that ends in no other, in wanted edges.
 const SHORTEST_END: f64 = 3.0;
+/// A crease nearer than this to another curve leaves no room for triangles between; in wanted edges.
+const ROOM: f32 = 0.4;
+/// The part of its length along which a crease has another curve so near that it is dropped.
+const CROWDED: f64 = 0.75;
 /// The turn at a vertex counts over this part of a wanted edge to both sides too.
 const REACH: f64 = 0.5;
 /// How far to both sides of a crease normals are looked at, in wanted edges.
@@ -80,7 +84,9 @@ pub(super) fn find(net: &mut Net, walk: &Walk) -> Curves {
         if !drop_weak(net, &curves, &counts, &mut is_crease) {
             let triangles: Vec<[u32; 3]> = curves.segments.iter().map(|&[a, b]| [a, b, b]).collect();
             curves.index = SurfaceIndex::new(&net.at, &triangles);
-            return curves;
+            if !drop_crowded(net, &curves, &mut is_crease) {
+                return curves;
+            }
         }
         net.kind.clone_from(&kinds);
     }
@@ -165,6 +171,40 @@ fn drop_weak(net: &mut Net, curves: &Curves, counts: &[u32], is_crease: &mut [bo
         let curve = net.curve[h as usize] as usize;
         lengths[curve] < if has_end[curve] { SHORTEST_END } else { 1.0 }
     })
+}
+
+/// Drops chains of creases that run beside another one, or a rim or border, nearer than triangles fit between: along
+/// [`CROWDED`] of their length nearer than [`ROOM`]. Of two that do the longer one stays. Whether there are any.
+fn drop_crowded(net: &mut Net, curves: &Curves, is_crease: &mut [bool]) -> bool {
+    let mut is_of_crease = vec![false; curves.count()];
+    for h in (0..net.half_edges()).filter(|&h| is_crease[h as usize]) {
+        is_of_crease[net.curve[h as usize] as usize] = true;
+    }
+    let mut lengths = vec![0.0f64; curves.count()];
+    let mut of_curve = vec![Vec::new(); curves.count()];
+    for (s, (&[a, b], &curve)) in curves.segments.iter().zip(&curves.of_segment).enumerate() {
+        lengths[curve as usize] += f64::from(net.stretch_between(a, b)).sqrt();
+        of_curve[curve as usize].push(s);
+    }
+    let mut creases: Vec<usize> = (0..curves.count()).filter(|&c| is_of_crease[c]).collect();
+    creases.sort_by(|&c, &d| lengths[d].total_cmp(&lengths[c]).then(c.cmp(&d)));
+    let mut is_kept: Vec<bool> = is_of_crease.iter().map(|of_crease| !of_crease).collect();
+    for &curve in &creases {
+        let is_other = |s: u32| is_kept[curves.of_segment[s as usize] as usize];
+        let is_near = |s: &&usize| {
+            let [a, b] = curves.segments[**s];
+            let middle = net.at[a as usize].midpoint(net.at[b as usize]);
+            let room = ROOM * f32::midpoint(net.size[a as usize], net.size[b as usize]);
+            curves.index.nearest_of(middle, is_other).is_some_and(|found| found.distance < room)
+        };
+        let length = |&s: &usize| {
+            let [a, b] = curves.segments[s];
+            f64::from(net.stretch_between(a, b)).sqrt()
+        };
+        let near: f64 = of_curve[curve].iter().filter(is_near).map(length).sum();
+        is_kept[curve] = near <= CROWDED * lengths[curve];
+    }
+    unmark(net, is_crease, |net, h| !is_kept[net.curve[h as usize] as usize])
 }
 
 /// Whether the surface at `h`, whose faces have these normals, turns as seen over a wanted edge: the mean normals of

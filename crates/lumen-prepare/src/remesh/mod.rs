@@ -37,7 +37,7 @@ use self::steps::Original;
 use self::triangle::doubled;
 use self::walk::Walk;
 use super::Patched;
-use crate::folds::{clashing, clashing_in};
+use crate::folds::clashing_in;
 
 /// Rounds of the steps, at most.
 const ROUNDS: usize = 9;
@@ -239,23 +239,36 @@ pub async fn remesh_in_slices(
     run(&mut net, &original, ROUNDS, COARSE_ROUNDS, &yielder.part(0.1..0.8)).await;
     let mut new = numbered(&net);
     let mut crossing = new.clashing();
-    for _ in 0..REPAIRS {
-        let mut coarse = where_crossed(&crossing, &new.mesh, &original, &first);
+    let mut crossed_before = None;
+    // Smaller triangles do not help everywhere: what has the fewest places left is taken, of the like the first.
+    let mut best: Option<(usize, Net, Numbered, Vec<u32>)> = None;
+    for repair in 0..=REPAIRS {
+        let mut coarse = where_crossed(&crossing, &new.mesh, &original, &first, &mut crossed_before);
         if let Some(bound) = sizing.max_deviation_mm {
             coarse.extend(where_far(bound, &new, &original, &first));
         }
-        if !reduce(&coarse, &original, sizing, &mut lengths) {
-            break;
+        let is_better = best.as_ref().is_none_or(|(count, ..)| coarse.len() < *count);
+        let can_be = repair < REPAIRS && reduce(&coarse, &original, sizing, &mut lengths);
+        if can_be {
+            sizing::grade(&first, sizing, &mut lengths);
         }
-        sizing::grade(&first, sizing, &mut lengths);
-        if check_count(&first, &original.triangles, &lengths).is_err() {
+        if !can_be || check_count(&first, &original.triangles, &lengths).is_err() {
+            if is_better {
+                best = None;
+            }
             break;
         }
         original.lengths = lengths.iter().map(|&length| length as f32).collect();
+        if is_better {
+            best = Some((coarse.len(), net.clone(), new, crossing));
+        }
         resize(&mut net, &original);
         run(&mut net, &original, REPAIR_ROUNDS, 0, &yielder.part(0.8..0.9)).await;
         new = numbered(&net);
         crossing = new.clashing();
+    }
+    if let Some((_, best_net, best_new, best_crossing)) = best {
+        (net, new, crossing) = (best_net, best_new, best_crossing);
     }
     yielder.rest(0.9).await;
     Ok(finished(surface, &first, &net, &original, &kept, new, crossing))
@@ -358,14 +371,24 @@ async fn relax(net: &mut Net, original: &Original, done: f32, yielder: &Yielder)
     }
 }
 
-/// The old triangles, none of which crossed others, at new ones that do.
-fn where_crossed(crossing: &[u32], mesh: &TriMesh, original: &Original, first: &Net) -> Vec<u32> {
+/// The old triangles, none of which crossed others, at new ones that do; `crossed_before` keeps which did.
+fn where_crossed(
+    crossing: &[u32],
+    mesh: &TriMesh,
+    original: &Original,
+    first: &Net,
+    crossed_before: &mut Option<Vec<bool>>,
+) -> Vec<u32> {
     if crossing.is_empty() {
         return Vec::new();
     }
-    let mut crossed_before = vec![false; original.triangles.len()];
-    let old = TriMesh { positions: first.at.clone(), triangles: original.triangles.clone() };
-    clashing(&old).into_iter().for_each(|t| crossed_before[t as usize] = true);
+    let crossed_before = crossed_before.get_or_insert_with(|| {
+        let old = TriMesh { positions: first.at.clone(), triangles: original.triangles.clone() };
+        let topology = Topology::new(old.positions.len(), &old.triangles);
+        let mut crossed = vec![false; old.triangles.len()];
+        clashing_in(&old, &original.index, &topology).into_iter().for_each(|t| crossed[t as usize] = true);
+        crossed
+    });
     let points = crossing.iter().flat_map(|&t| samples(mesh.corners(t as usize)));
     let old = points.filter_map(|p| original.index.nearest(p)).map(|found| found.triangle);
     old.filter(|&t| !crossed_before[t as usize]).collect()

@@ -423,7 +423,8 @@ impl Net {
         }
         // The apexes are common neighbours, and no others may be.
         let apexes = [self.apex(h), if g == NONE { NONE } else { self.apex(g) }];
-        apexes[0] != apexes[1] && !self.neighbours(v).any(|(n, _)| n != w && !apexes.contains(&n) && self.are_neighbours(w, n))
+        apexes[0] != apexes[1]
+            && !self.neighbours(v).any(|(n, _)| n != w && !apexes.contains(&n) && self.are_neighbours(w, n))
     }
 
     /// Whether a vertex has no more triangles than three, or one at a rim: with one less it would have no surroundings.

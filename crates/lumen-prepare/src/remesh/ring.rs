@@ -187,7 +187,11 @@ mod tests {
                 assert!(ring.gather(&net, v));
                 let p = net.at[v as usize];
                 for step in 0..20 {
-                    let way = Vec3::new(step as f32 * 0.1 - 1.0, (step % 7) as f32 * 0.2 - 0.6, (step % 3) as f32 * 0.4 - 0.4);
+                    let way = Vec3::new(
+                        step as f32 * 0.1 - 1.0,
+                        (step % 7) as f32 * 0.2 - 0.6,
+                        (step % 3) as f32 * 0.4 - 0.4,
+                    );
                     let surely = ring.surely_allows(way);
                     let may = net.around(v).all(|h| {
                         let [b, c] = [net.end(h), net.apex(h)].map(|n| net.at[n as usize]);

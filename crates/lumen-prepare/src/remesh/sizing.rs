@@ -95,9 +95,8 @@ pub(super) fn grade(net: &Net, sizing: &Sizing, lengths: &mut [f64]) {
     let slope = SLOPE * (sizing.growth - 1.0);
     // Lengths are above 0, so their bits are in their order; the heap gives the least first.
     let entry = |length: f64, v: u32| std::cmp::Reverse((length.to_bits(), v));
-    let allowed = |length: f64, v: u32, n: u32| {
-        length + slope * f64::from(net.at[v as usize].distance(net.at[n as usize]))
-    };
+    let allowed =
+        |length: f64, v: u32, n: u32| length + slope * f64::from(net.at[v as usize].distance(net.at[n as usize]));
     lengths.iter_mut().for_each(|length| *length = length.clamp(sizing.least_mm, sizing.largest_mm));
     // Those that lower a neighbour.
     let lowers = |v: u32| {

@@ -12,7 +12,7 @@ use super::features::Curves;
 use super::measure::Target;
 use super::net::{CORNER, FREE, Foot, NONE, Net, next, prev};
 use super::ring::Ring;
-use super::triangle::{doubled, faces_along, may_become, quality, sharpness};
+use super::triangle::{doubled, faces_along, is_thin, may_become, quality, sharpness};
 use super::walk::Walk;
 
 /// An edge above this many wanted lengths is split, squared.
@@ -232,9 +232,7 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) -> usize {
     }
     let is_short = |net: &Net, h: u32| net.stretch(h) < SHORT;
     let is_asked = |&h: &u32| {
-        net.is_edge(h)
-            && (is_open[net.origin(h) as usize] || is_open[net.end(h) as usize])
-            && is_short(net, h)
+        net.is_edge(h) && (is_open[net.origin(h) as usize] || is_open[net.end(h) as usize]) && is_short(net, h)
     };
     let mut edges: Vec<u32> = (0..net.half_edges()).filter(is_asked).collect();
     is_open.fill(false);
@@ -282,7 +280,7 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) -> usize {
 }
 
 /// Whether the collapse of an edge to its end turns no face over. A face that does turn, as those of a spike, may if it comes
-/// to face where the surface around both ends does.
+/// to face where the surface around both ends does; a sliver that stays one faces nowhere.
 pub(super) fn keeps_faces(net: &Net, h: u32) -> bool {
     let (v, w) = (net.origin(h), net.end(h));
     let (start, target) = (net.at[v as usize], net.at[w as usize]);
@@ -290,8 +288,9 @@ pub(super) fn keeps_faces(net: &Net, h: u32) -> bool {
     net.around(v).all(|e| {
         let [b, c] = [net.end(e), net.apex(e)];
         let [p, q] = [b, c].map(|v| net.at[v as usize]);
-        let new = [target, p, q];
-        b == w || c == w || may_become([start, p, q], new, || facing(net, v)) || faces_along(new, around())
+        let (old, new) = ([start, p, q], [target, p, q]);
+        let is_kept = || may_become(old, new, || facing(net, v)) || faces_along(new, around());
+        b == w || c == w || is_kept() || (is_thin(old) && is_thin(new))
     })
 }
 

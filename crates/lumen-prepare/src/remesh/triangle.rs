@@ -48,6 +48,12 @@ pub(super) fn may_become(old: [Vec3; 3], new: [Vec3; 3], facing: impl FnOnce() -
     is_kept && after > (before * 0.9).min(0.1)
 }
 
+/// Whether a triangle is so thin that it has no normal to speak of.
+#[inline]
+pub(super) fn is_thin(corners: [Vec3; 3]) -> bool {
+    quality(corners) < THIN
+}
+
 /// Whether a triangle is no sliver and faces within 60 degrees of `facing`.
 #[inline]
 pub(super) fn faces_along(corners: [Vec3; 3], facing: Vec3) -> bool {
