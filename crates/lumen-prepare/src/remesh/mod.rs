@@ -240,35 +240,23 @@ pub async fn remesh_in_slices(
     let mut new = numbered(&net);
     let mut crossing = new.clashing();
     let mut crossed_before = None;
-    // Smaller triangles do not help everywhere: what has the fewest places left is taken, of the like the first.
-    let mut best: Option<(usize, Net, Numbered, Vec<u32>)> = None;
-    for repair in 0..=REPAIRS {
+    for _ in 0..REPAIRS {
         let mut coarse = where_crossed(&crossing, &new.mesh, &original, &first, &mut crossed_before);
         if let Some(bound) = sizing.max_deviation_mm {
             coarse.extend(where_far(bound, &new, &original, &first));
         }
-        let is_better = best.as_ref().is_none_or(|(count, ..)| coarse.len() < *count);
-        let can_be = repair < REPAIRS && reduce(&coarse, &original, sizing, &mut lengths);
-        if can_be {
-            sizing::grade(&first, sizing, &mut lengths);
+        if !reduce(&coarse, &original, sizing, &mut lengths) {
+            break;
         }
-        if !can_be || check_count(&first, &original.triangles, &lengths).is_err() {
-            if is_better {
-                best = None;
-            }
+        sizing::grade(&first, sizing, &mut lengths);
+        if check_count(&first, &original.triangles, &lengths).is_err() {
             break;
         }
         original.lengths = lengths.iter().map(|&length| length as f32).collect();
-        if is_better {
-            best = Some((coarse.len(), net.clone(), new, crossing));
-        }
         resize(&mut net, &original);
         run(&mut net, &original, REPAIR_ROUNDS, 0, &yielder.part(0.8..0.9)).await;
         new = numbered(&net);
         crossing = new.clashing();
-    }
-    if let Some((_, best_net, best_new, best_crossing)) = best {
-        (net, new, crossing) = (best_net, best_new, best_crossing);
     }
     yielder.rest(0.9).await;
     Ok(finished(surface, &first, &net, &original, &kept, new, crossing))
