@@ -8,6 +8,10 @@
 //! by one (`clean.rs`). Where faces run into others that did not before, or the surfaces are farther apart than the
 //! bound, the wanted length is reduced and the steps run again.
 //!
+//! A vertex at rest is left alone until something around it changes, and the rounds end where little does. A vertex that
+//! moves finds its place by walking from its last one (`walk.rs`), with the triangles around it looked at four at a time
+//! (`ring.rs`).
+//!
 //! Limits. Vertices lie on the surface that enters, so edges cut the vessel's corners: a tube gets 1.7 % narrower with
 //! 12 edges around, and 0.4 % with 24. A vessel thinner than the least length keeps its topology, but not its shape.
 //! Crossings that are left are listed in [`Remeshed::crossing`].
@@ -48,8 +52,6 @@ const FEW: usize = 25;
 const COARSE_ROUNDS: usize = 2;
 /// Rounds of relaxation and flips for the angles after those.
 const LAST_ROUNDS: usize = 2;
-/// Times that vertices are relaxed in a round.
-const RELAXATIONS: usize = 1;
 /// Rounds of the steps after wanted lengths were reduced.
 const REPAIR_ROUNDS: usize = 3;
 /// How often lengths are reduced at crossings, or beyond the bound on the deviation.
@@ -109,7 +111,8 @@ impl Sizing {
 pub struct Remeshed {
     /// The new surface, with the patches of the old one. Areas of patches are as they were.
     pub surface: Patched,
-    /// For each new triangle the triangle of the old surface that is nearest to its middle, in the same patch.
+    /// For each new triangle the triangle of the old surface that is nearest to its middle, on the same wall and in the same
+    /// patch.
     pub from: Vec<u32>,
     /// For each new vertex the old vertices that it lies between, by barycentric weights.
     pub vertices: Blend,
@@ -336,7 +339,8 @@ async fn run(net: &mut Net, original: &Original, rounds: usize, coarse_rounds: u
         yielder.rest(done).await;
         let since = std::mem::replace(&mut flipped, net.clock);
         changes += steps::flip_to_valence(net, since);
-        relax(net, original, done, yielder).await;
+        yielder.rest(done).await;
+        steps::relax(net, original);
         if round >= coarse_rounds && FEW * changes < net.triangle_count() {
             break;
         }
@@ -347,16 +351,10 @@ async fn run(net: &mut Net, original: &Original, rounds: usize, coarse_rounds: u
         net.clock += 1;
         let since = std::mem::replace(&mut flipped, net.clock);
         steps::flip_to_angles(net, since);
-        relax(net, original, (rounds + round) as f32 / all, yielder).await;
-    }
-    clean::widen_angles(net, original);
-}
-
-async fn relax(net: &mut Net, original: &Original, done: f32, yielder: &Yielder) {
-    for _ in 0..RELAXATIONS {
-        yielder.rest(done).await;
+        yielder.rest((rounds + round) as f32 / all).await;
         steps::relax(net, original);
     }
+    clean::widen_angles(net, original);
 }
 
 /// The old triangles, none of which crossed others, at new ones that do; `crossed_before` keeps which did.
