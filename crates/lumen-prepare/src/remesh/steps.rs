@@ -21,6 +21,8 @@ pub(super) const LONG: f32 = 16.0 / 9.0;
 pub(super) const LONGER: f32 = 2.56;
 /// An edge below this many wanted lengths is collapsed, squared.
 const SHORT: f32 = 16.0 / 25.0;
+/// An edge below this many wanted lengths is tiny, squared: no vessel that has a shape at this size is so narrow.
+const TINY: f32 = 0.09;
 /// Passes over all edges in which they are split, at most: each halves the longest ones.
 const SPLIT_PASSES: usize = 60;
 /// Passes in which edges are collapsed, at most.
@@ -279,18 +281,19 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) -> usize {
     before - net.triangle_count()
 }
 
-/// Whether the collapse of an edge to its end turns no face over. A face that does turn, as those of a spike, may if it comes
-/// to face where the surface around both ends does; a sliver that stays one faces nowhere.
+/// Whether the collapse of an edge to its end turns no face over. At a tiny edge a face that does turn, as those of a spike, may
+/// if it comes to face where the surface around both ends does; a sliver that stays one faces nowhere.
 pub(super) fn keeps_faces(net: &Net, h: u32) -> bool {
     let (v, w) = (net.origin(h), net.end(h));
     let (start, target) = (net.at[v as usize], net.at[w as usize]);
+    let is_tiny = net.stretch(h) < TINY;
     let around = || facing(net, v) + facing(net, w);
     net.around(v).all(|e| {
         let [b, c] = [net.end(e), net.apex(e)];
         let [p, q] = [b, c].map(|v| net.at[v as usize]);
         let (old, new) = ([start, p, q], [target, p, q]);
-        let is_kept = || may_become(old, new, || facing(net, v)) || faces_along(new, around());
-        b == w || c == w || is_kept() || (is_thin(old) && is_thin(new))
+        let is_kept = || may_become(old, new, || facing(net, v)) || (is_tiny && faces_along(new, around()));
+        b == w || c == w || is_kept() || (is_tiny && is_thin(old) && is_thin(new))
     })
 }
 
