@@ -29,11 +29,16 @@ const FEWEST: usize = 8;
 /// into nothing.
 pub fn self_intersections(mesh: &TriMesh) -> Vec<u32> {
     let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
-    let crossing = Crossing::none(&index, &mesh.triangles);
     // What repeats a vertex has no adjacency.
     let is_sound = mesh.triangles.iter().all(|[a, b, c]| a != b && b != c && c != a);
     let topology = is_sound.then(|| Topology::new(mesh.positions.len(), &mesh.triangles));
-    let surface = Indexed { mesh, topology: topology.as_ref() };
+    self_intersections_in(mesh, &index, topology.as_ref())
+}
+
+/// As [`self_intersections`]; `index` and `topology` must be those of `mesh`.
+pub fn self_intersections_in(mesh: &TriMesh, index: &SurfaceIndex, topology: Option<&Topology>) -> Vec<u32> {
+    let crossing = Crossing::none(index, &mesh.triangles);
+    let surface = Indexed { mesh, topology };
     parallel::map_ranges(index.slots(), PIECE, |slots| index.mark_crossings(surface, slots, &crossing));
     crossing.triangles().collect()
 }

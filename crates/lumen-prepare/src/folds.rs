@@ -4,7 +4,7 @@
 //! within 0.1 degrees of each other for one that is there twice, and no volume mesher makes good cells between them.
 
 use lumen_mesh::crossing::{Face, cross};
-use lumen_mesh::{Topology, TriMesh, Vec3, self_intersections};
+use lumen_mesh::{SurfaceIndex, Topology, TriMesh, Vec3, self_intersections, self_intersections_in};
 
 /// Two triangles at an edge are folded where the angle between them is smaller, in degrees. A thin plate has its sides at
 /// edges of two right angles; so sharp an edge is a fault of a mesh.
@@ -12,7 +12,10 @@ pub const FOLD_DEGREES: f64 = 1.0;
 
 /// The pairs of triangles that are folded onto each other. Edges of one triangle, or of more than two, have no fold.
 pub fn folds(mesh: &TriMesh) -> Vec<[u32; 2]> {
-    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    folds_in(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles))
+}
+
+fn folds_in(mesh: &TriMesh, topology: &Topology) -> Vec<[u32; 2]> {
     let face = |t: u32| Face { vertices: mesh.triangles[t as usize], corners: mesh.corners(t as usize) };
     let mut found = Vec::new();
     for (a, b, _) in topology.edges().filter(|(.., edge)| edge.triangles() == 2) {
@@ -28,8 +31,16 @@ pub fn folds(mesh: &TriMesh) -> Vec<[u32; 2]> {
 
 /// The triangles that run into others or are folded onto a neighbour, ascending.
 pub(crate) fn clashing(mesh: &TriMesh) -> Vec<u32> {
-    let mut all = self_intersections(mesh);
-    all.extend(folds(mesh).as_flattened());
+    all_of(self_intersections(mesh), &folds(mesh))
+}
+
+/// As [`clashing`], of a surface whose index and adjacency are known.
+pub(crate) fn clashing_in(mesh: &TriMesh, index: &SurfaceIndex, topology: &Topology) -> Vec<u32> {
+    all_of(self_intersections_in(mesh, index, Some(topology)), &folds_in(mesh, topology))
+}
+
+fn all_of(mut all: Vec<u32>, folds: &[[u32; 2]]) -> Vec<u32> {
+    all.extend(folds.as_flattened());
     all.sort_unstable();
     all.dedup();
     all

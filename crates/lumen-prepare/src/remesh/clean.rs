@@ -7,7 +7,7 @@
 use glam::Vec3;
 
 use super::net::{CORNER, FREE, NONE, Net, next, prev};
-use super::steps::{Original, facing, flip_if_wider, keeps_shape, settle};
+use super::steps::{Original, facing, flip_if_wider, keeps_faces, keeps_lengths, settle};
 use super::triangle::sharpness;
 
 /// Cosine of the angle from which on a triangle is good: 33 degrees.
@@ -84,7 +84,8 @@ fn collapse_if_wider(net: &mut Net, h: u32) -> bool {
     let sharpest_after = net.around(v).filter(stays).map(after).fold(0.0, f32::max);
     let may = sharpest_after < sharpest(net, v, net.at[v as usize]).min(0.95)
         && net.can_collapse(h)
-        && keeps_shape(net, h, LONGEST);
+        && keeps_lengths(net, h, LONGEST)
+        && keeps_faces(net, h);
     if may {
         net.collapse(h);
     }

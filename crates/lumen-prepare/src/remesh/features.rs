@@ -4,7 +4,7 @@
 //! A crease is an edge at which the faces turn by more than [`CREASE_DEG`], and so does the surface to both sides of
 //! it, seen over a wanted edge: the steps of a voxel grid do not. An edge of a triangle so thin that it has no normal
 //! to speak of is no crease, nor is a connected piece of creases shorter than [`SHORTEST`] wanted edges, nor a chain
-//! that could not be resolved. Rims and borders always are features.
+//! that could not be resolved, be it too short or too near to another. Rims and borders always are features.
 
 use glam::{DVec3, Vec3};
 use lumen_mesh::disjoint_sets::{root, union};
@@ -12,6 +12,7 @@ use lumen_mesh::{Nearest, SurfaceIndex};
 
 use super::net::{CORNER, FREE, NONE, Net};
 use super::triangle::doubled;
+use super::walk::Walk;
 
 /// Faces that turn by more than this at an edge make it a crease; degrees.
 const CREASE_DEG: f64 = 50.0;
@@ -21,6 +22,10 @@ const CORNER_DEG: f64 = 50.0;
 const SHORTEST: f64 = 6.0;
 /// Least length of a chain of creases that ends in no other, in wanted edges.
 const SHORTEST_END: f64 = 3.0;
+/// A crease nearer than this to another curve leaves no room for triangles between; in wanted edges.
+const ROOM: f32 = 0.4;
+/// The part of its length along which a crease has another curve so near that it is dropped.
+const CROWDED: f64 = 0.75;
 /// The turn at a vertex counts over this part of a wanted edge to both sides too.
 const REACH: f64 = 0.5;
 /// How far to both sides of a crease normals are looked at, in wanted edges.
@@ -64,8 +69,8 @@ fn normal(net: &Net, t: u32) -> Option<DVec3> {
 }
 
 /// Finds the feature curves of `net`, whose sizes are known, and notes them in it.
-pub(super) fn find(net: &mut Net, index: &SurfaceIndex) -> Curves {
-    let mut is_crease = mark(net, index);
+pub(super) fn find(net: &mut Net, walk: &Walk) -> Curves {
+    let mut is_crease = mark(net, walk);
     let kinds = net.kind.clone();
     loop {
         drop_short_pieces(net, &mut is_crease);
@@ -79,7 +84,9 @@ pub(super) fn find(net: &mut Net, index: &SurfaceIndex) -> Curves {
         if !drop_weak(net, &curves, &counts, &mut is_crease) {
             let triangles: Vec<[u32; 3]> = curves.segments.iter().map(|&[a, b]| [a, b, b]).collect();
             curves.index = SurfaceIndex::new(&net.at, &triangles);
-            return curves;
+            if !drop_crowded(net, &curves, &mut is_crease) {
+                return curves;
+            }
         }
         net.kind.clone_from(&kinds);
     }
@@ -89,7 +96,7 @@ pub(super) fn find(net: &mut Net, index: &SurfaceIndex) -> Curves {
 const UNNAMED: u32 = 0;
 
 /// Marks feature edges by [`UNNAMED`], and returns for each half-edge whether it is one as a crease alone.
-fn mark(net: &mut Net, index: &SurfaceIndex) -> Vec<bool> {
+fn mark(net: &mut Net, walk: &Walk) -> Vec<bool> {
     let normals: Vec<Option<DVec3>> = (0..net.patch.len() as u32).map(|t| normal(net, t)).collect();
     let limit = libm::cos(CREASE_DEG.to_radians());
     let mut is_crease = vec![false; net.origin.len()];
@@ -104,7 +111,7 @@ fn mark(net: &mut Net, index: &SurfaceIndex) -> Vec<bool> {
                 net.curve[g as usize] = UNNAMED;
             } else if let (Some(one), Some(other)) = (normals[t], normals[s])
                 && one.dot(other) < limit
-                && bends_widely(net, index, h, [one, other], limit)
+                && bends_widely(net, walk, h, [one, other], limit)
             {
                 net.curve[h as usize] = UNNAMED;
                 net.curve[g as usize] = UNNAMED;
@@ -133,6 +140,9 @@ fn unmark(net: &mut Net, is_crease: &mut [bool], is_weak: impl Fn(&Net, u32) -> 
 
 /// Drops connected creases that are shorter than [`SHORTEST`] together.
 fn drop_short_pieces(net: &mut Net, is_crease: &mut [bool]) {
+    if !is_crease.contains(&true) {
+        return;
+    }
     let mut pieces: Vec<u32> = (0..net.at.len() as u32).collect();
     let creases: Vec<u32> = (0..net.half_edges()).filter(|&h| is_crease[h as usize] && net.is_edge(h)).collect();
     for &h in &creases {
@@ -163,19 +173,53 @@ fn drop_weak(net: &mut Net, curves: &Curves, counts: &[u32], is_crease: &mut [bo
     })
 }
 
+/// Drops chains of creases that run beside another one, or a rim or border, nearer than triangles fit between: along
+/// [`CROWDED`] of their length nearer than [`ROOM`]. Of two that do the longer one stays. Whether there are any.
+fn drop_crowded(net: &mut Net, curves: &Curves, is_crease: &mut [bool]) -> bool {
+    let mut is_of_crease = vec![false; curves.count()];
+    for h in (0..net.half_edges()).filter(|&h| is_crease[h as usize]) {
+        is_of_crease[net.curve[h as usize] as usize] = true;
+    }
+    let mut lengths = vec![0.0f64; curves.count()];
+    let mut of_curve = vec![Vec::new(); curves.count()];
+    for (s, (&[a, b], &curve)) in curves.segments.iter().zip(&curves.of_segment).enumerate() {
+        lengths[curve as usize] += f64::from(net.stretch_between(a, b)).sqrt();
+        of_curve[curve as usize].push(s);
+    }
+    let mut creases: Vec<usize> = (0..curves.count()).filter(|&c| is_of_crease[c]).collect();
+    creases.sort_by(|&c, &d| lengths[d].total_cmp(&lengths[c]).then(c.cmp(&d)));
+    let mut is_kept: Vec<bool> = is_of_crease.iter().map(|of_crease| !of_crease).collect();
+    for &curve in &creases {
+        let is_other = |s: u32| is_kept[curves.of_segment[s as usize] as usize];
+        let is_near = |s: &&usize| {
+            let [a, b] = curves.segments[**s];
+            let middle = net.at[a as usize].midpoint(net.at[b as usize]);
+            let room = ROOM * f32::midpoint(net.size[a as usize], net.size[b as usize]);
+            curves.index.nearest_of(middle, is_other).is_some_and(|found| found.distance < room)
+        };
+        let length = |&s: &usize| {
+            let [a, b] = curves.segments[s];
+            f64::from(net.stretch_between(a, b)).sqrt()
+        };
+        let near: f64 = of_curve[curve].iter().filter(is_near).map(length).sum();
+        is_kept[curve] = near <= CROWDED * lengths[curve];
+    }
+    unmark(net, is_crease, |net, h| !is_kept[net.curve[h as usize] as usize])
+}
+
 /// Whether the surface at `h`, whose faces have these normals, turns as seen over a wanted edge: the mean normals of
 /// places to both sides, up to that far away.
-fn bends_widely(net: &Net, index: &SurfaceIndex, h: u32, normals: [DVec3; 2], limit: f64) -> bool {
+fn bends_widely(net: &Net, walk: &Walk, h: u32, normals: [DVec3; 2], limit: f64) -> bool {
     let [a, b] = [net.origin(h), net.end(h)].map(|v| net.at[v as usize].as_dvec3());
     let (middle, along) = (a.midpoint(b), (b - a).normalize_or_zero());
     let size = f64::from(f32::midpoint(net.size[net.origin(h) as usize], net.size[net.end(h) as usize]));
-    let [one, other] = [normals[0].cross(along), along.cross(normals[1])].map(|away| {
+    let sides = [(h / 3, normals[0].cross(along)), (net.twin(h) / 3, along.cross(normals[1]))];
+    let [one, other] = sides.map(|(mut triangle, away)| {
         let mut sum = DVec3::ZERO;
         for (out, aside) in SAMPLES {
             let p = middle + (away.normalize_or_zero() * out + along * aside) * (REACH_OF_CREASE * size);
-            if let Some(found) = index.nearest(p.as_vec3()) {
-                sum += doubled(net.corners(found.triangle)).as_dvec3().normalize_or_zero();
-            }
+            triangle = walk.from(triangle, p.as_vec3(), 0.0).triangle;
+            sum += doubled(net.corners(triangle)).as_dvec3().normalize_or_zero();
         }
         sum.normalize_or_zero()
     });

@@ -4,6 +4,9 @@ use glam::Vec3;
 use lumen_mesh::{SurfaceIndex, TriMesh, corner_angles, parallel, triangle_area};
 use serde::{Deserialize, Serialize};
 
+use super::net::Net;
+use super::walk::Walk;
+
 /// Distances are first looked at in one of this many triangles.
 const SOME: usize = 64;
 /// Triangles that one thread looks at, at a time.
@@ -64,20 +67,66 @@ pub(super) fn middle([a, b, c]: [Vec3; 3]) -> Vec3 {
     (a + b + c) / 3.0
 }
 
-/// The largest distance of a vertex, the middle of an edge or of a triangle.
-pub(super) fn farthest(mesh: &TriMesh, from: &SurfaceIndex) -> f64 {
-    // What is no farther than what was found does not matter.
-    let of = |triangles: &mut dyn Iterator<Item = usize>, mut farthest: f32| {
-        let mut last = 0;
-        for p in triangles.flat_map(|t| samples(mesh.corners(t))) {
-            if !from.is_within_from(p, farthest, &mut last) {
-                farthest = from.nearest(p).map_or(farthest, |found| found.distance.max(farthest));
+/// A surface that distances are measured from.
+#[derive(Clone, Copy)]
+pub(super) struct Target<'a> {
+    /// A way over it, which gives an upper bound.
+    pub(super) walk: &'a Walk,
+    /// What knows the nearest point of all.
+    pub(super) index: &'a SurfaceIndex,
+}
+
+impl Target<'_> {
+    /// The nearest triangle and its distance, where an upper bound of that is known, squared.
+    fn nearest_below(self, p: Vec3, squared: f64) -> Option<(u32, f32)> {
+        /// Against rounding.
+        const MARGIN: f64 = 1.001;
+        let bound = (squared.sqrt() * MARGIN) as f32;
+        let found = self.index.nearest_within(p, bound).or_else(|| self.index.nearest(p))?;
+        Some((found.triangle, found.distance))
+    }
+
+    /// The larger of `farthest` and the distance of `p`, in mm. `near` is a triangle nearby, and then the one found.
+    fn farther(self, p: Vec3, farthest: f32, near: &mut u32) -> f32 {
+        let enough = f64::from(farthest) * f64::from(farthest);
+        let found = self.walk.from(*near, p, enough);
+        if found.squared <= enough {
+            *near = found.triangle;
+            return farthest;
+        }
+        // What is no farther than what was found does not matter.
+        let Some((triangle, distance)) = self.nearest_below(p, found.squared) else { return farthest };
+        *near = triangle;
+        farthest.max(distance)
+    }
+}
+
+/// The largest distance of a vertex, the middle of an edge or of a triangle, of these triangles of a net, in mm. Where the
+/// net `is_on` the surface its vertices know where, and those that did not leave it lie on it.
+pub(super) fn farthest(net: &Net, triangles: &[u32], from: Target, is_on: bool) -> f64 {
+    let of = |triangles: &mut dyn Iterator<Item = &u32>, mut farthest: f32| {
+        let mut near = 0;
+        for &t in triangles {
+            let corners = net.corners(t);
+            if is_on {
+                near = net.near[net.origin(3 * t) as usize];
+            }
+            farthest = from.farther(middle(corners), farthest, &mut near);
+            for i in 0..3 {
+                let h = 3 * t + i;
+                let v = net.origin(h);
+                let (p, q) = (corners[i as usize], corners[(i as usize + 1) % 3]);
+                if net.is_edge(h) {
+                    farthest = from.farther(p.midpoint(q), farthest, &mut near);
+                }
+                if net.out[v as usize] == h && (!is_on || net.is_adrift[v as usize]) {
+                    farthest = from.farther(p, farthest, &mut near);
+                }
             }
         }
         farthest
     };
-    let count = mesh.triangles.len();
-    let at_some = of(&mut (0..count).step_by(SOME), 0.0);
-    let at_all = parallel::map_ranges(count, CHUNK, |mut triangles| of(&mut triangles, at_some));
-    f64::from(at_all.into_iter().fold(at_some, f32::max))
+    let at_some = of(&mut triangles.iter().step_by(SOME), 0.0);
+    let ranges = parallel::map_ranges(triangles.len(), CHUNK, |range| of(&mut triangles[range].iter(), at_some));
+    f64::from(ranges.into_iter().fold(at_some, f32::max))
 }

@@ -8,6 +8,10 @@
 //! by one (`clean.rs`). Where faces run into others that did not before, or the surfaces are farther apart than the
 //! bound, the wanted length is reduced and the steps run again.
 //!
+//! A vertex at rest is left alone until something around it changes, and the rounds end where little does. A vertex that
+//! moves finds its place by walking from its last one (`walk.rs`), with the triangles around it looked at four at a time
+//! (`ring.rs`).
+//!
 //! Limits. Vertices lie on the surface that enters, so edges cut the vessel's corners: a tube gets 1.7 % narrower with
 //! 12 edges around, and 0.4 % with 24. A vessel thinner than the least length keeps its topology, but not its shape.
 //! Crossings that are left are listed in [`Remeshed::crossing`].
@@ -16,33 +20,38 @@ mod clean;
 mod features;
 mod measure;
 mod net;
+mod ring;
 mod sizing;
 mod steps;
 #[cfg(test)]
 mod tests;
 mod triangle;
+mod walk;
 
 use lumen_mesh::task::{Yielder, at_once};
-use lumen_mesh::{Blend, SurfaceIndex, TriMesh, Vec3, triangle_area};
+use lumen_mesh::{Blend, SurfaceIndex, Topology, TriMesh, Vec3, triangle_area};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub use self::measure::{Deviation, Quality};
 
-use self::measure::{farthest, middle, samples};
+use self::measure::{Target, farthest, middle, samples};
 use self::net::{CORNER, FREE, NONE, Net, Unsound};
 use self::steps::Original;
 use self::triangle::doubled;
+use self::walk::Walk;
 use super::Patched;
-use crate::folds::clashing;
+use crate::folds::clashing_in;
 
-/// Rounds of the steps.
-const ROUNDS: usize = 7;
+/// Rounds of the steps, at most.
+const ROUNDS: usize = 9;
+/// A round that changes fewer triangles than this part of all is the last one.
+const FEW: usize = 25;
 /// The first rounds, in which a collapse may make edges that are split again: so even a grid of long triangles gets
 /// another pattern.
 const COARSE_ROUNDS: usize = 2;
 /// Rounds of relaxation and flips for the angles after those.
-const LAST_ROUNDS: usize = 3;
+const LAST_ROUNDS: usize = 2;
 /// Rounds of the steps after wanted lengths were reduced.
 const REPAIR_ROUNDS: usize = 3;
 /// How often lengths are reduced at crossings, or beyond the bound on the deviation.
@@ -102,7 +111,8 @@ impl Sizing {
 pub struct Remeshed {
     /// The new surface, with the patches of the old one. Areas of patches are as they were.
     pub surface: Patched,
-    /// For each new triangle the triangle of the old surface that is nearest to its middle, in the same patch.
+    /// For each new triangle the triangle of the old surface that is nearest to its middle, on the same wall and in the same
+    /// patch.
     pub from: Vec<u32>,
     /// For each new vertex the old vertices that it lies between, by barycentric weights.
     pub vertices: Blend,
@@ -217,7 +227,8 @@ pub async fn remesh_in_slices(
     net.size = lengths.iter().map(|&length| length.min(sizing.largest_mm) as f32).collect();
     let triangles: Vec<[u32; 3]> = net.origin.as_chunks::<3>().0.to_vec();
     let index = SurfaceIndex::new(&net.at, &triangles);
-    let curves = features::find(&mut net, &index);
+    let walk = Walk::on(&net, triangles.len(), |t| t);
+    let curves = features::find(&mut net, &walk);
     if let Some(deviation) = sizing.max_deviation_mm {
         sizing::bound_deviation(&net, deviation, sizing, &mut lengths);
     }
@@ -226,15 +237,16 @@ pub async fn remesh_in_slices(
     net.size = lengths.iter().map(|&length| length as f32).collect();
     let first = net.clone();
     let normals = triangles.iter().map(|t| doubled(t.map(|v| net.at[v as usize]))).collect();
-    let mut original = Original { triangles, normals, patch, index, curves, lengths: net.size.clone() };
+    let mut original = Original { triangles, normals, patch, index, walk, curves, lengths: net.size.clone() };
 
     run(&mut net, &original, ROUNDS, COARSE_ROUNDS, &yielder.part(0.1..0.8)).await;
     let mut new = numbered(&net);
-    let mut crossing = clashing(&new.mesh);
+    let mut crossing = new.clashing();
+    let mut crossed_before = None;
     for _ in 0..REPAIRS {
-        let mut coarse = where_crossed(&crossing, &new.mesh, &original, &first);
+        let mut coarse = where_crossed(&crossing, &new.mesh, &original, &first, &mut crossed_before);
         if let Some(bound) = sizing.max_deviation_mm {
-            coarse.extend(where_far(bound, &new.mesh, &original, &first));
+            coarse.extend(where_far(bound, &new, &original, &first));
         }
         if !reduce(&coarse, &original, sizing, &mut lengths) {
             break;
@@ -247,7 +259,7 @@ pub async fn remesh_in_slices(
         resize(&mut net, &original);
         run(&mut net, &original, REPAIR_ROUNDS, 0, &yielder.part(0.8..0.9)).await;
         new = numbered(&net);
-        crossing = clashing(&new.mesh);
+        crossing = new.clashing();
     }
     yielder.rest(0.9).await;
     Ok(finished(surface, &first, &net, &original, &kept, new, crossing))
@@ -312,52 +324,70 @@ fn check_count(net: &Net, triangles: &[[u32; 3]], lengths: &[f64]) -> Result<(),
 /// The steps, and the clean-up after them.
 async fn run(net: &mut Net, original: &Original, rounds: usize, coarse_rounds: usize, yielder: &Yielder) {
     let all = (rounds + LAST_ROUNDS + 1) as f32;
+    // When edges were collapsed and flipped last.
+    let (mut collapsed, mut flipped) = (0, 0);
     for round in 0..rounds {
         let done = round as f32 / all;
-        steps::split_long(net, original, 2 * MOST);
+        net.clock += 1;
+        let mut changes = steps::split_long(net, original, 2 * MOST);
         yielder.rest(done).await;
         let longest = if round < coarse_rounds { steps::LONGER } else { steps::LONG };
-        steps::collapse_short(net, longest);
+        // The last of the coarse rounds leaves edges that may not be collapsed from then on.
+        let since = std::mem::replace(&mut collapsed, net.clock + 1);
+        net.clock += 1;
+        changes += steps::collapse_short(net, longest, since);
         yielder.rest(done).await;
-        steps::flip_to_valence(net);
-        relax(net, original, done, yielder).await;
+        let since = std::mem::replace(&mut flipped, net.clock);
+        changes += steps::flip_to_valence(net, since);
+        yielder.rest(done).await;
+        steps::relax(net, original);
+        if round >= coarse_rounds && FEW * changes < net.triangle_count() {
+            break;
+        }
     }
+    // Angles were not asked for yet.
+    flipped = 0;
     for round in 0..LAST_ROUNDS {
-        steps::flip_to_angles(net);
-        relax(net, original, (rounds + round) as f32 / all, yielder).await;
+        net.clock += 1;
+        let since = std::mem::replace(&mut flipped, net.clock);
+        steps::flip_to_angles(net, since);
+        yielder.rest((rounds + round) as f32 / all).await;
+        steps::relax(net, original);
     }
     clean::widen_angles(net, original);
 }
 
-async fn relax(net: &mut Net, original: &Original, done: f32, yielder: &Yielder) {
-    for also_curves in [false, true] {
-        yielder.rest(done).await;
-        steps::relax(net, original, also_curves);
-    }
-}
-
-/// The old triangles, none of which crossed others, at new ones that do.
-fn where_crossed(crossing: &[u32], mesh: &TriMesh, original: &Original, first: &Net) -> Vec<u32> {
+/// The old triangles, none of which crossed others, at new ones that do; `crossed_before` keeps which did.
+fn where_crossed(
+    crossing: &[u32],
+    mesh: &TriMesh,
+    original: &Original,
+    first: &Net,
+    crossed_before: &mut Option<Vec<bool>>,
+) -> Vec<u32> {
     if crossing.is_empty() {
         return Vec::new();
     }
-    let mut crossed_before = vec![false; original.triangles.len()];
-    let old = TriMesh { positions: first.at.clone(), triangles: original.triangles.clone() };
-    clashing(&old).into_iter().for_each(|t| crossed_before[t as usize] = true);
+    let crossed_before = crossed_before.get_or_insert_with(|| {
+        let old = TriMesh { positions: first.at.clone(), triangles: original.triangles.clone() };
+        let topology = Topology::new(old.positions.len(), &old.triangles);
+        let mut crossed = vec![false; old.triangles.len()];
+        clashing_in(&old, &original.index, &topology).into_iter().for_each(|t| crossed[t as usize] = true);
+        crossed
+    });
     let points = crossing.iter().flat_map(|&t| samples(mesh.corners(t as usize)));
     let old = points.filter_map(|p| original.index.nearest(p)).map(|found| found.triangle);
     old.filter(|&t| !crossed_before[t as usize]).collect()
 }
 
 /// The old triangles where one of the surfaces is farther than `bound` from the other, in mm.
-fn where_far(bound: f64, mesh: &TriMesh, original: &Original, first: &Net) -> Vec<u32> {
-    let bound = bound as f32;
+fn where_far(bound: f64, new: &Numbered, original: &Original, first: &Net) -> Vec<u32> {
+    let (bound, mesh, index) = (bound as f32, &new.mesh, &new.index);
     let mut far = Vec::new();
     for t in 0..mesh.triangles.len() {
         let beyond = samples(mesh.corners(t)).into_iter().filter(|&p| !original.index.is_within(p, bound));
         far.extend(beyond.filter_map(|p| original.index.nearest(p)).map(|found| found.triangle));
     }
-    let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
     for (t, corners) in original.triangles.iter().enumerate() {
         let corners = corners.map(|v| first.at[v as usize]);
         if samples(corners).into_iter().any(|p| !index.is_within(p, bound)) {
@@ -382,17 +412,24 @@ fn reduce(coarse: &[u32], original: &Original, sizing: &Sizing, lengths: &mut [f
     is_reduced
 }
 
-/// Looks the wanted lengths up again.
+/// Looks the wanted lengths up again, and wakes the vertices at which they are others.
 fn resize(net: &mut Net, original: &Original) {
-    for v in 0..net.at.len() {
-        if net.out[v] == NONE {
+    net.clock += 1;
+    for v in 0..net.at.len() as u32 {
+        let (foot, kind) = (net.foot[v as usize], net.kind[v as usize]);
+        if net.out[v as usize] == NONE {
             continue;
         }
-        let first = net.first[v];
-        if net.foot[v].is_none() && first != NONE {
-            net.size[v] = original.lengths[v];
-        } else if let Some(place) = original.project(net, v as u32, net.at[v]) {
-            net.size[v] = place.size();
+        let size = if foot.on != NONE {
+            original.size_at(kind, foot)
+        } else if net.first[v as usize] != NONE {
+            original.lengths[v as usize]
+        } else {
+            original.project(net, v, net.at[v as usize]).map_or(net.size[v as usize], |place| place.size())
+        };
+        if size != net.size[v as usize] {
+            net.size[v as usize] = size;
+            net.wake_ring(v);
         }
     }
 }
@@ -400,15 +437,23 @@ fn resize(net: &mut Net, original: &Original) {
 /// A net as a list of triangles.
 struct Numbered {
     mesh: TriMesh,
+    index: SurfaceIndex,
     /// The net's vertex of each vertex.
     vertices: Vec<u32>,
-    of_triangle: Vec<u32>,
+    /// The net's triangle of each triangle.
+    triangles: Vec<u32>,
+}
+
+impl Numbered {
+    fn clashing(&self) -> Vec<u32> {
+        clashing_in(&self.mesh, &self.index, &Topology::new(self.mesh.positions.len(), &self.mesh.triangles))
+    }
 }
 
 /// Vertices that were parted where fans of triangles touch are one again.
 fn numbered(net: &Net) -> Numbered {
     let mut number = vec![NONE; net.at.len()];
-    let (mut mesh, mut vertices, mut of_triangle) = (TriMesh::default(), Vec::new(), Vec::new());
+    let (mut mesh, mut vertices, mut triangles) = (TriMesh::default(), Vec::new(), Vec::new());
     for t in (0..net.patch.len() as u32).filter(|&t| net.is_live(3 * t)) {
         let corners = [0, 1, 2].map(|i| {
             let mut v = net.origin(3 * t + i);
@@ -425,10 +470,11 @@ fn numbered(net: &Net) -> Numbered {
         let [a, b, c] = corners;
         if a != b && b != c && c != a {
             mesh.triangles.push(corners);
-            of_triangle.push(net.patch[t as usize]);
+            triangles.push(t);
         }
     }
-    Numbered { mesh, vertices, of_triangle }
+    let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+    Numbered { mesh, index, vertices, triangles }
 }
 
 fn finished(
@@ -440,27 +486,29 @@ fn finished(
     new: Numbered,
     crossing: Vec<u32>,
 ) -> Remeshed {
-    let Numbered { mesh, vertices, of_triangle } = new;
+    let deviation = deviation(&new, net, original, first);
+    let Numbered { mesh, vertices, triangles, .. } = new;
     let mut blend = Blend::with_capacity(vertices.len(), 3 * vertices.len());
     for &v in &vertices {
         push_sources(&mut blend, first, net, original, v);
     }
+    let of_triangle: Vec<u32> = triangles.iter().map(|&t| net.patch[t as usize]).collect();
     let from = (0..mesh.triangles.len()).map(|t| {
-        let nearest = original.index.nearest(middle(mesh.corners(t))).map_or(0, |found| found.triangle);
+        let corners = mesh.triangles[t].map(|v| vertices[v as usize]);
+        let p = middle(mesh.corners(t));
+        let nearest = original.walk.from(net.near[corners[0] as usize], p, 0.0).triangle;
         if original.patch[nearest as usize] == of_triangle[t] {
             return kept[nearest as usize];
         }
         // Beside a border the middle may be nearer to the other patch; a corner is not.
-        let feet =
-            mesh.triangles[t].map(|v| vertices[v as usize]).map(|v| (net.kind[v as usize], net.foot[v as usize]));
-        let other =
-            feet.into_iter().filter(|&(kind, _)| kind == FREE).find_map(|(_, foot)| foot.map(|foot| foot.triangle));
+        let free = corners.into_iter().filter(|&v| net.kind[v as usize] == FREE);
+        let other = free.map(|v| net.foot[v as usize].on).find(|&foot| foot != NONE);
         kept[other.filter(|&t2| original.patch[t2 as usize] == of_triangle[t]).unwrap_or(nearest) as usize]
     });
     let from = from.collect();
     Remeshed {
         quality: Quality::of(&mesh),
-        deviation: deviation(&mesh, original, first),
+        deviation,
         surface: Patched { mesh, of_triangle, patches: surface.patches.clone() },
         from,
         vertices: blend,
@@ -472,31 +520,32 @@ fn finished(
 
 /// Adds the row of a new vertex.
 fn push_sources(blend: &mut Blend, first: &Net, net: &Net, original: &Original, v: u32) {
-    let kind = net.kind[v as usize];
-    if net.foot[v as usize].is_none() && net.first[v as usize] != NONE {
-        blend.push(net.first[v as usize], 1.0);
+    let (kind, at, foot) = (net.kind[v as usize], net.at[v as usize], net.foot[v as usize]);
+    let row = if foot.on == NONE && net.first[v as usize] != NONE {
+        Some(([v, v, v], [1.0, 0.0, 0.0]))
+    } else if kind != FREE && foot.on != NONE && !net.is_adrift[v as usize] {
+        let [a, b] = original.curves.segments[foot.on as usize];
+        Some(([a, b, b], foot.weights))
+    } else if kind == FREE && foot.on != NONE && !net.is_adrift[v as usize] {
+        Some((original.triangles[foot.on as usize], foot.weights))
     } else {
-        let at = net.at[v as usize];
-        let on_curve = if kind == FREE { None } else { original.curves.nearest(at, kind) };
-        let row = match on_curve {
-            Some(found) => {
-                let [a, b] = original.curves.segments[found.triangle as usize];
-                Some(([a, b, b], found.barycentric))
-            }
-            None => {
-                original.index.nearest(at).map(|found| (original.triangles[found.triangle as usize], found.barycentric))
-            }
-        };
-        for (corner, weight) in row.into_iter().flat_map(|(corners, weights)| corners.into_iter().zip(weights)) {
-            blend.push(first.first[corner as usize], weight);
-        }
+        let found = original.index.nearest(at);
+        found.map(|found| (original.triangles[found.triangle as usize], found.barycentric))
+    };
+    for (corner, weight) in row.into_iter().flat_map(|(corners, weights)| corners.into_iter().zip(weights)) {
+        blend.push(first.first[corner as usize], weight);
     }
     blend.finish_row();
 }
 
 /// How far the new and the old surface are apart.
-fn deviation(mesh: &TriMesh, original: &Original, first: &Net) -> Deviation {
-    let old = TriMesh { positions: first.at.clone(), triangles: original.triangles.clone() };
-    let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
-    Deviation { to_old_mm: farthest(mesh, &original.index), to_new_mm: farthest(&old, &index) }
+fn deviation(new: &Numbered, net: &Net, original: &Original, first: &Net) -> Deviation {
+    let mut number = vec![NONE; net.patch.len()];
+    (0..).zip(&new.triangles).for_each(|(new, &t)| number[t as usize] = new);
+    let walk = Walk::on(net, new.triangles.len(), |t| number[t as usize]);
+    let of_new = Target { walk: &walk, index: &new.index };
+    let old: Vec<u32> = original.index.triangles().collect();
+    // What is new lies where its vertices do.
+    let to_old_mm = farthest(net, &new.triangles, original.to_measure(), true);
+    Deviation { to_old_mm, to_new_mm: farthest(first, &old, of_new, false) }
 }

@@ -6,7 +6,6 @@
 //! along the rim, so that turning left from it visits every triangle around.
 
 use glam::Vec3;
-use lumen_mesh::Nearest;
 
 /// No half-edge, no curve.
 pub(super) const NONE: u32 = u32::MAX;
@@ -24,9 +23,10 @@ pub(super) struct Net {
     pub(super) size: Vec<f32>,
     /// [`FREE`], [`CORNER`], or the number of the feature curve that the vertex is on.
     pub(super) kind: Vec<u32>,
-    /// Where a vertex lies on the surface that entered, or on its feature segments if it is on a curve; `None` where it
-    /// is a vertex of them.
-    pub(super) foot: Vec<Option<Nearest>>,
+    /// Where a vertex lies on the surface that entered.
+    pub(super) foot: Vec<Foot>,
+    /// A triangle of the surface that entered, near a vertex.
+    pub(super) near: Vec<u32>,
     /// Whether a vertex may have left the surface that entered.
     pub(super) is_adrift: Vec<bool>,
     /// The vertex of the surface that entered which a vertex was; only the first ones were one.
@@ -41,8 +41,27 @@ pub(super) struct Net {
     pub(super) curve: Vec<u32>,
     /// The patch of a triangle.
     pub(super) patch: Vec<u32>,
+    /// Whether something around a vertex has changed since it came to rest.
+    pub(super) is_awake: Vec<bool>,
+    /// When a vertex moved or got other neighbours last, by [`Self::clock`].
+    touched: Vec<u32>,
+    /// Steps that there were.
+    pub(super) clock: u32,
     /// Triangles that are gone.
     spare: Vec<u32>,
+}
+
+/// Where a vertex lies on the surface that entered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Foot {
+    /// The triangle, or the feature segment if it is on a curve; [`NONE`] where it is a vertex of them.
+    pub(super) on: u32,
+    /// Weights of its corners, or of the two ends.
+    pub(super) weights: [f32; 3],
+}
+
+impl Foot {
+    const VERTEX: Self = Self { on: NONE, weights: [0.0; 3] };
 }
 
 /// The half-edge after `h` in its triangle.
@@ -74,7 +93,8 @@ impl Net {
         let mut net = Self {
             at: positions.to_vec(),
             kind: vec![FREE; positions.len()],
-            foot: vec![None; positions.len()],
+            foot: vec![Foot::VERTEX; positions.len()],
+            near: vec![0; positions.len()],
             is_adrift: vec![false; positions.len()],
             first: (0..positions.len() as u32).collect(),
             out: vec![NONE; positions.len()],
@@ -83,30 +103,47 @@ impl Net {
             size: Vec::new(),
             origin,
             patch,
+            is_awake: vec![true; positions.len()],
+            touched: vec![0; positions.len()],
+            clock: 0,
             spare: Vec::new(),
         };
         net.find_twins()?;
         net.part_fans();
+        net.near = net.out.iter().map(|&h| if h == NONE { 0 } else { h / 3 }).collect();
         Ok(net)
     }
 
     fn find_twins(&mut self) -> Result<(), Unsound> {
-        let key = |h: u32| {
+        let ends = |h: u32| {
             let (a, b) = (self.origin[h as usize], self.origin[next(h) as usize]);
-            (u64::from(a.min(b)) << 32 | u64::from(a.max(b)), h)
+            (a.min(b), a.max(b))
         };
-        let mut edges: Vec<(u64, u32)> = (0..self.origin.len() as u32).map(key).collect();
-        edges.sort_unstable();
+        // Half-edges by the lower one of their ends.
+        let mut first = vec![0u32; self.at.len() + 1];
+        (0..self.half_edges()).for_each(|h| first[ends(h).0 as usize + 1] += 1);
+        (1..first.len()).for_each(|v| first[v] += first[v - 1]);
+        let mut place = first.clone();
+        let mut edges = vec![(0u32, 0u32); self.origin.len()];
+        for h in 0..self.half_edges() {
+            let (low, high) = ends(h);
+            edges[place[low as usize] as usize] = (high, h);
+            place[low as usize] += 1;
+        }
         let mut unsound = Unsound { non_manifold: 0, flipped: 0 };
-        for uses in edges.chunk_by(|a, b| a.0 == b.0) {
-            match *uses {
-                [_] => {}
-                [(_, h), (_, g)] if self.origin[h as usize] != self.origin[g as usize] => {
-                    self.twin[h as usize] = g;
-                    self.twin[g as usize] = h;
+        for range in first.windows(2) {
+            let edges = &mut edges[range[0] as usize..range[1] as usize];
+            edges.sort_unstable();
+            for uses in edges.chunk_by(|a, b| a.0 == b.0) {
+                match *uses {
+                    [_] => {}
+                    [(_, h), (_, g)] if self.origin[h as usize] != self.origin[g as usize] => {
+                        self.twin[h as usize] = g;
+                        self.twin[g as usize] = h;
+                    }
+                    [_, _] => unsound.flipped += 1,
+                    _ => unsound.non_manifold += 1,
                 }
-                [_, _] => unsound.flipped += 1,
-                _ => unsound.non_manifold += 1,
             }
         }
         if unsound == (Unsound { non_manifold: 0, flipped: 0 }) { Ok(()) } else { Err(unsound) }
@@ -125,8 +162,10 @@ impl Net {
                 let copy = self.at.len() as u32;
                 self.at.push(self.at[v as usize]);
                 self.kind.push(CORNER);
-                self.foot.push(None);
+                self.foot.push(Foot::VERTEX);
                 self.is_adrift.push(false);
+                self.is_awake.push(true);
+                self.touched.push(0);
                 self.first.push(v);
                 self.out.push(NONE);
                 v = copy;
@@ -148,6 +187,12 @@ impl Net {
     /// Triangles there are.
     pub(super) fn triangle_count(&self) -> usize {
         self.patch.len() - self.spare.len()
+    }
+
+    /// Whether a vertex is there.
+    #[inline]
+    pub(super) fn is_there(&self, v: u32) -> bool {
+        self.out[v as usize] != NONE
     }
 
     /// Whether a half-edge, or the triangle that it is in, is there.
@@ -183,6 +228,12 @@ impl Net {
         self.is_live(h) && h < self.twin[h as usize]
     }
 
+    /// Of two half-edges the one that stands for their edge.
+    #[inline]
+    pub(super) fn edge(&self, h: u32) -> u32 {
+        h.min(self.twin[h as usize])
+    }
+
     #[inline]
     pub(super) fn is_feature(&self, h: u32) -> bool {
         self.curve[h as usize] != NONE
@@ -209,12 +260,9 @@ impl Net {
     /// The neighbours of `v` with the half-edge between, counter-clockwise; that half-edge leaves `v`, but for the last
     /// one at a rim.
     #[inline]
-    pub(super) fn neighbours(&self, v: u32) -> impl Iterator<Item = (u32, u32)> + '_ {
-        self.around(v).flat_map(move |h| {
-            let last = prev(h);
-            let is_last = self.twin[last as usize] == NONE;
-            [Some((self.end(h), h)), is_last.then(|| (self.origin(last), last))].into_iter().flatten()
-        })
+    pub(super) fn neighbours(&self, v: u32) -> Neighbours<'_> {
+        let first = self.out[v as usize];
+        Neighbours { net: self, first, at: first, last: NONE }
     }
 
     pub(super) fn valence(&self, v: u32) -> usize {
@@ -298,8 +346,12 @@ impl Net {
         self.at.push(self.at[v as usize].midpoint(self.at[w as usize]));
         self.size.push(f32::midpoint(self.size[v as usize], self.size[w as usize]));
         self.kind.push(curve);
-        self.foot.push(None);
+        self.foot.push(Foot::VERTEX);
+        let near = if self.kind[v as usize] == FREE { v } else { w };
+        self.near.push(self.near[near as usize]);
         self.is_adrift.push(true);
+        self.is_awake.push(true);
+        self.touched.push(self.clock);
         self.first.push(NONE);
         self.out.push(NONE);
         let first = 3 * self.new_triangle(self.patch[(h / 3) as usize]);
@@ -324,6 +376,7 @@ impl Net {
         }
         self.anchor(w, first + 1);
         self.anchor(m, first);
+        self.touch_ring(m);
         m
     }
 
@@ -344,6 +397,7 @@ impl Net {
         self.anchor(v, hp);
         self.anchor(b, gn);
         self.anchor(w, gp);
+        [v, w, a, b].into_iter().for_each(|v| self.touch(v));
     }
 
     /// Whether the edge of `h` can shrink to its end with the surface still the same but for its shape: the link
@@ -360,16 +414,36 @@ impl Net {
         }
         let is_thin = |h: u32| {
             let (one, other) = (next(h), prev(h));
-            let apex = self.apex(h);
             (self.is_feature(one) && self.is_feature(other))
-                || self.valence(apex) <= if self.is_rim(apex) { 2 } else { 3 }
                 || (self.twin(one) == NONE && self.twin(other) == NONE)
+                || self.has_few_neighbours(self.apex(h))
         };
         if is_thin(h) || (g != NONE && (is_thin(g) || (self.is_rim(v) && self.is_rim(w)))) {
             return false;
         }
-        let common = self.neighbours(v).filter(|&(n, _)| self.are_neighbours(w, n)).count();
-        common == 1 + usize::from(g != NONE)
+        // The apexes are common neighbours, and no others may be.
+        let apexes = [self.apex(h), if g == NONE { NONE } else { self.apex(g) }];
+        apexes[0] != apexes[1]
+            && !self.neighbours(v).any(|(n, _)| n != w && !apexes.contains(&n) && self.are_neighbours(w, n))
+    }
+
+    /// Whether a vertex has no more triangles than three, or one at a rim: with one less it would have no surroundings.
+    fn has_few_neighbours(&self, v: u32) -> bool {
+        let first = self.out[v as usize];
+        let mut h = first;
+        for count in 1.. {
+            h = self.twin[prev(h) as usize];
+            if h == NONE {
+                return count < 2;
+            }
+            if h == first {
+                return count <= 3;
+            }
+            if count > 3 {
+                break;
+            }
+        }
+        false
     }
 
     /// Shrinks the edge of `h` to its end, where [`Self::can_collapse`] says that it can.
@@ -390,6 +464,45 @@ impl Net {
         for v in [w, one, other] {
             self.anchor(v, self.out[v as usize]);
         }
+        self.touch_ring(w);
+    }
+
+    fn touch(&mut self, v: u32) {
+        self.is_awake[v as usize] = true;
+        self.touched[v as usize] = self.clock;
+    }
+
+    fn touch_ring(&mut self, v: u32) {
+        self.touch(v);
+        self.for_each_neighbour(v, Self::touch);
+    }
+
+    /// Notes that a vertex moved: it and its neighbours are awake.
+    pub(super) fn wake_ring(&mut self, v: u32) {
+        self.touch(v);
+        self.for_each_neighbour(v, |net, n| net.is_awake[n as usize] = true);
+    }
+
+    fn for_each_neighbour(&mut self, v: u32, mut each: impl FnMut(&mut Self, u32)) {
+        let first = self.out[v as usize];
+        let mut h = first;
+        loop {
+            each(self, self.end(h));
+            let last = prev(h);
+            h = self.twin[last as usize];
+            if h == NONE {
+                each(self, self.origin(last));
+            }
+            if h == NONE || h == first {
+                break;
+            }
+        }
+    }
+
+    /// Whether a vertex moved or got other neighbours since then.
+    #[inline]
+    pub(super) fn was_touched(&self, v: u32, since: u32) -> bool {
+        self.touched[v as usize] >= since
     }
 
     /// Takes away the triangle of `h`, whose ends are one vertex now, joins what is beside it, and returns its apex.
@@ -440,6 +553,35 @@ impl Iterator for Around<'_> {
             self.at = NONE;
         }
         Some(h)
+    }
+}
+
+/// See [`Net::neighbours`].
+pub(super) struct Neighbours<'a> {
+    net: &'a Net,
+    first: u32,
+    at: u32,
+    /// The half-edge along the rim that ends at the vertex, once the others were visited.
+    last: u32,
+}
+
+impl Iterator for Neighbours<'_> {
+    type Item = (u32, u32);
+
+    #[inline]
+    fn next(&mut self) -> Option<(u32, u32)> {
+        let h = self.at;
+        if h == NONE {
+            let last = std::mem::replace(&mut self.last, NONE);
+            return (last != NONE).then(|| (self.net.origin(last), last));
+        }
+        let before = prev(h);
+        let left = self.net.twin(before);
+        if left == NONE {
+            self.last = before;
+        }
+        self.at = if left == self.first { NONE } else { left };
+        Some((self.net.end(h), h))
     }
 }
 

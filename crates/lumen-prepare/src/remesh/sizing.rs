@@ -95,18 +95,24 @@ pub(super) fn grade(net: &Net, sizing: &Sizing, lengths: &mut [f64]) {
     let slope = SLOPE * (sizing.growth - 1.0);
     // Lengths are above 0, so their bits are in their order; the heap gives the least first.
     let entry = |length: f64, v: u32| std::cmp::Reverse((length.to_bits(), v));
-    let mut heap = BinaryHeap::with_capacity(lengths.len());
-    for (v, length) in lengths.iter_mut().enumerate() {
-        *length = length.clamp(sizing.least_mm, sizing.largest_mm);
-        heap.push(entry(*length, v as u32));
-    }
+    let allowed =
+        |length: f64, v: u32, n: u32| length + slope * f64::from(net.at[v as usize].distance(net.at[n as usize]));
+    lengths.iter_mut().for_each(|length| *length = length.clamp(sizing.least_mm, sizing.largest_mm));
+    // Those that lower a neighbour.
+    let lowers = |v: u32| {
+        let length = lengths[v as usize];
+        let is_lowered = |n: u32| length < lengths[n as usize] && allowed(length, v, n) < lengths[n as usize];
+        net.out[v as usize] != NONE && net.neighbours(v).any(|(n, _)| is_lowered(n))
+    };
+    let first = (0..lengths.len() as u32).filter(|&v| lowers(v)).map(|v| entry(lengths[v as usize], v));
+    let mut heap: BinaryHeap<_> = first.collect();
     while let Some(std::cmp::Reverse((bits, v))) = heap.pop() {
         let length = f64::from_bits(bits);
         if length > lengths[v as usize] || net.out[v as usize] == NONE {
             continue;
         }
         for (n, _) in net.neighbours(v) {
-            let allowed = length + slope * f64::from(net.at[v as usize].distance(net.at[n as usize]));
+            let allowed = allowed(length, v, n);
             if allowed < lengths[n as usize] {
                 lengths[n as usize] = allowed;
                 heap.push(entry(allowed, n));

@@ -6,11 +6,14 @@
 //! A vertex on a feature curve splits, collapses and relaxes along the curve alone, a corner stays.
 
 use glam::Vec3;
-use lumen_mesh::{Nearest, SurfaceIndex, parallel};
+use lumen_mesh::SurfaceIndex;
 
 use super::features::Curves;
-use super::net::{CORNER, FREE, NONE, Net, next, prev};
-use super::triangle::{doubled, may_become, quality, sharpness};
+use super::measure::Target;
+use super::net::{CORNER, FREE, Foot, NONE, Net, next, prev};
+use super::ring::Ring;
+use super::triangle::{doubled, faces_along, is_thin, may_become, quality, sharpness};
+use super::walk::Walk;
 
 /// An edge above this many wanted lengths is split, squared.
 pub(super) const LONG: f32 = 16.0 / 9.0;
@@ -18,6 +21,8 @@ pub(super) const LONG: f32 = 16.0 / 9.0;
 pub(super) const LONGER: f32 = 2.56;
 /// An edge below this many wanted lengths is collapsed, squared.
 const SHORT: f32 = 16.0 / 25.0;
+/// An edge below this many wanted lengths is tiny, squared: no vessel that has a shape at this size is so narrow.
+const TINY: f32 = 0.09;
 /// Passes over all edges in which they are split, at most: each halves the longest ones.
 const SPLIT_PASSES: usize = 60;
 /// Passes in which edges are collapsed, at most.
@@ -25,11 +30,9 @@ const COLLAPSE_PASSES: usize = 20;
 /// A pass that collapses fewer edges than this part of the triangles is the last one.
 const FEW: usize = 200;
 /// The part of its way to the middle of its neighbours that a vertex goes.
-const DAMPING: f32 = 0.5;
+const DAMPING: f32 = 0.9;
 /// A vertex that would go by less than this part of a wanted length stays.
 const AT_REST: f32 = 0.02;
-/// Vertices that one thread relaxes at a time.
-const CHUNK: usize = 2048;
 /// A flip makes no triangle of a lesser quality than this, unless it was there.
 const FLIP_QUALITY: f32 = 0.3;
 /// Cosine of the most that two faces turn at an edge that a flip makes, or is made of: 45 degrees.
@@ -45,6 +48,8 @@ pub(super) struct Original {
     pub(super) patch: Vec<u32>,
     /// An index of them.
     pub(super) index: SurfaceIndex,
+    /// A way over them.
+    pub(super) walk: Walk,
     /// Feature curves.
     pub(super) curves: Curves,
     /// Wanted lengths at its vertices, in mm.
@@ -55,7 +60,8 @@ pub(super) struct Original {
 #[derive(Clone, Copy)]
 pub(super) struct Place {
     at: Vec3,
-    foot: Nearest,
+    foot: Foot,
+    near: u32,
     size: f32,
 }
 
@@ -72,37 +78,59 @@ impl Place {
 }
 
 impl Original {
+    /// The surface to measure distances from.
+    pub(super) fn to_measure(&self) -> Target<'_> {
+        Target { walk: &self.walk, index: &self.index }
+    }
+
     /// The place of the same curve, or of the same patch, that is nearest to `p`, for a vertex that is there or near.
     pub(super) fn project(&self, net: &Net, v: u32, p: Vec3) -> Option<Place> {
-        let kind = net.kind[v as usize];
-        let (foot, corners) = match kind {
-            CORNER => return None,
-            FREE => {
-                let mut found = match &net.foot[v as usize] {
-                    Some(last) => self.index.nearest_from(p, last)?,
-                    None => self.index.nearest(p)?,
-                };
-                // Where two walls nearly touch, the nearest may be the other one, which faces the other way.
-                let facing = facing(net, v);
-                let is_own = |t: u32| self.normals[t as usize].dot(facing) >= 0.0;
-                if !is_own(found.triangle) {
-                    found = self.index.nearest_of(p, is_own).filter(|own| own.distance <= net.size[v as usize])?;
-                }
-                let patch = net.patch[(net.out[v as usize] / 3) as usize];
-                if self.patch[found.triangle as usize] != patch {
-                    return None;
-                }
-                (found, self.triangles[found.triangle as usize])
-            }
+        match net.kind[v as usize] {
+            CORNER => None,
+            FREE => self.project_free(net, v, p, facing(net, v)),
             curve => {
                 let found = self.curves.nearest(p, curve)?;
-                let [a, b] = self.curves.segments[found.triangle as usize];
-                (found, [a, b, b])
+                let [u, v, w] = found.barycentric;
+                let foot = Foot { on: found.triangle, weights: [u, v + w, 0.0] };
+                Some(Place { at: found.point, foot, near: NONE, size: self.size_at(curve, foot) })
             }
+        }
+    }
+
+    /// As [`Self::project`], for a vertex of no curve where the surface faces there.
+    fn project_free(&self, net: &Net, v: u32, p: Vec3, facing: Vec3) -> Option<Place> {
+        let is_own = |t: u32| self.normals[t as usize].dot(facing) >= 0.0;
+        let size = net.size[v as usize];
+        let found = self.walk.from(net.near[v as usize], p, 0.0);
+        let (on, at, weights) = if found.squared <= f64::from(size * size) && is_own(found.triangle) {
+            (found.triangle, found.point, found.weights)
+        } else {
+            let mut found = self.index.nearest(p)?;
+            // Where two walls nearly touch, the nearest may be the other one, which faces the other way.
+            if !is_own(found.triangle) {
+                found = self.index.nearest_of(p, is_own).filter(|own| own.distance <= size)?;
+            }
+            (found.triangle, found.point, found.barycentric)
         };
-        let [a, b, c] = corners.map(|v| self.lengths[v as usize]);
-        let [u, v, w] = foot.barycentric;
-        Some(Place { at: foot.point, foot, size: a * u + b * v + c * w })
+        let patch = net.patch[(net.out[v as usize] / 3) as usize];
+        if self.patch[on as usize] != patch {
+            return None;
+        }
+        let foot = Foot { on, weights };
+        Some(Place { at, foot, near: on, size: self.size_at(FREE, foot) })
+    }
+
+    /// The wanted length at a foot, of a vertex of this kind.
+    pub(super) fn size_at(&self, kind: u32, foot: Foot) -> f32 {
+        let at = |v: u32| self.lengths[v as usize];
+        let [x, y, z] = foot.weights;
+        if kind == FREE {
+            let [a, b, c] = self.triangles[foot.on as usize].map(at);
+            a * x + b * y + c * z
+        } else {
+            let [a, b] = self.curves.segments[foot.on as usize].map(at);
+            a * x + b * y
+        }
     }
 }
 
@@ -123,37 +151,61 @@ fn may_move(net: &Net, v: u32, p: Vec3) -> bool {
 pub(super) fn settle(net: &mut Net, v: u32, place: &Place) -> bool {
     let may = may_move(net, v, place.at);
     if may {
-        net.at[v as usize] = place.at;
-        net.size[v as usize] = place.size;
-        net.foot[v as usize] = Some(place.foot);
-        net.is_adrift[v as usize] = false;
+        put(net, v, place);
     }
     may
 }
 
-/// Splits long edges until there are none, or more triangles than `most`.
-pub(super) fn split_long(net: &mut Net, original: &Original, most: usize) {
+fn put(net: &mut Net, v: u32, place: &Place) {
+    net.at[v as usize] = place.at;
+    net.size[v as usize] = place.size;
+    net.foot[v as usize] = place.foot;
+    net.is_adrift[v as usize] = false;
+    if place.near != NONE {
+        net.near[v as usize] = place.near;
+    }
+    net.wake_ring(v);
+}
+
+/// Splits long edges until there are none, or more triangles than `most`; returns how many triangles that made.
+pub(super) fn split_long(net: &mut Net, original: &Original, most: usize) -> usize {
+    let before = net.triangle_count();
+    let is_long = |net: &Net, h: u32| net.is_edge(h) && net.stretch(h) > LONG;
+    let mut long: Vec<u32> = (0..net.half_edges()).filter(|&h| is_long(net, h)).collect();
     for _ in 0..SPLIT_PASSES {
         let mut count = 0;
-        let mut h = 0;
-        while h < net.half_edges() && net.triangle_count() < most {
-            if net.is_edge(h) {
-                let stretch = net.stretch(h);
-                if stretch > LONG && is_longest(net, h, stretch) && can_halve(net, h) {
-                    let m = net.split(h);
-                    if let Some(place) = original.project(net, m, net.at[m as usize]) {
-                        net.size[m as usize] = place.size;
-                        settle(net, m, &place);
-                    }
-                    count += 1;
-                }
+        // Those that a split makes come last.
+        let mut left = Vec::new();
+        let mut made = Vec::new();
+        for h in long {
+            if net.triangle_count() >= most {
+                return net.triangle_count() - before;
             }
-            h += 1;
+            let stretch = net.stretch(h);
+            if stretch <= LONG {
+                continue;
+            }
+            if !is_longest(net, h, stretch) || !can_halve(net, h) {
+                left.push(h);
+                continue;
+            }
+            let m = net.split(h);
+            if let Some(place) = original.project(net, m, net.at[m as usize]) {
+                net.size[m as usize] = place.size;
+                settle(net, m, &place);
+            }
+            made.extend(net.neighbours(m).map(|(_, h)| net.edge(h)));
+            count += 1;
         }
         if count == 0 {
             break;
         }
+        left.extend(made.into_iter().filter(|&h| is_long(net, h)));
+        left.sort_unstable();
+        left.dedup();
+        long = left;
     }
+    net.triangle_count() - before
 }
 
 /// Whether an edge is long enough for its middle to differ from its ends by more than rounding.
@@ -169,12 +221,29 @@ fn is_longest(net: &Net, h: u32, stretch: f32) -> bool {
     is_longest_in(h) && (g == NONE || is_longest_in(g))
 }
 
-/// Collapses short edges.
-pub(super) fn collapse_short(net: &mut Net, longest: f32) {
+/// Collapses short edges around which something has changed `since` then; returns how many triangles are gone by it.
+pub(super) fn collapse_short(net: &mut Net, longest: f32, since: u32) -> usize {
+    let before = net.triangle_count();
+    // Whether something around a vertex has changed; at first all is asked for.
+    let mut is_open = vec![since == 0; net.at.len()];
+    if since > 0 {
+        for v in (0..net.at.len() as u32).filter(|&v| net.is_there(v) && net.was_touched(v, since)) {
+            is_open[v as usize] = true;
+            net.neighbours(v).for_each(|(n, _)| is_open[n as usize] = true);
+        }
+    }
+    let is_short = |net: &Net, h: u32| net.stretch(h) < SHORT;
+    let is_asked = |&h: &u32| {
+        net.is_edge(h) && (is_open[net.origin(h) as usize] || is_open[net.end(h) as usize]) && is_short(net, h)
+    };
+    let mut edges: Vec<u32> = (0..net.half_edges()).filter(is_asked).collect();
+    is_open.fill(false);
     for _ in 0..COLLAPSE_PASSES {
         let mut count = 0;
-        for h in 0..net.half_edges() {
-            if !net.is_edge(h) || net.stretch(h) >= SHORT {
+        let mut open = Vec::new();
+        for h in edges {
+            // What was listed may be gone or have become another.
+            if !net.is_edge(h) || !is_short(net, h) {
                 continue;
             }
             let mut ways = [h, net.twin(h)];
@@ -183,8 +252,14 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32) {
                 ways.swap(0, 1);
             }
             for way in ways {
-                if way != NONE && net.can_collapse(way) && keeps_shape(net, way, longest) {
+                if way != NONE && keeps_lengths(net, way, longest) && net.can_collapse(way) && keeps_faces(net, way) {
+                    let left = net.end(way);
                     net.collapse(way);
+                    for v in net.neighbours(left).map(|(n, _)| n).chain([left]) {
+                        if !std::mem::replace(&mut is_open[v as usize], true) {
+                            open.push(v);
+                        }
+                    }
                     count += 1;
                     break;
                 }
@@ -193,24 +268,45 @@ pub(super) fn collapse_short(net: &mut Net, longest: f32) {
         if count * FEW <= net.triangle_count() {
             break;
         }
+        open.retain(|&v| net.is_there(v));
+        edges = Vec::with_capacity(4 * open.len());
+        for &v in &open {
+            // An edge between two of them comes once.
+            let is_first = |n: u32| v < n || !is_open[n as usize];
+            let short = net.neighbours(v).filter(|&(n, _)| is_first(n) && net.stretch_between(v, n) < SHORT);
+            edges.extend(short.map(|(_, h)| net.edge(h)));
+        }
+        open.iter().for_each(|&v| is_open[v as usize] = false);
     }
+    before - net.triangle_count()
 }
 
-/// Whether the collapse of an edge to its end turns no face over and makes no edge longer than `longest`, squared, in
-/// wanted lengths.
-pub(super) fn keeps_shape(net: &Net, h: u32, longest: f32) -> bool {
+/// Whether the collapse of an edge to its end turns no face over. At a tiny edge a face that does turn, as those of a spike, may
+/// if it comes to face where the surface around both ends does; a sliver that stays one faces nowhere.
+pub(super) fn keeps_faces(net: &Net, h: u32) -> bool {
     let (v, w) = (net.origin(h), net.end(h));
-    let target = net.at[w as usize];
-    let is_kept = net.around(v).all(|e| {
+    let (start, target) = (net.at[v as usize], net.at[w as usize]);
+    let is_tiny = net.stretch(h) < TINY;
+    let around = || facing(net, v) + facing(net, w);
+    net.around(v).all(|e| {
         let [b, c] = [net.end(e), net.apex(e)];
         let [p, q] = [b, c].map(|v| net.at[v as usize]);
-        b == w || c == w || may_become([net.at[v as usize], p, q], [target, p, q], || facing(net, v))
-    });
-    is_kept && net.neighbours(v).all(|(n, _)| n == w || net.stretch_between(n, w) <= longest)
+        let (old, new) = ([start, p, q], [target, p, q]);
+        let is_kept = || may_become(old, new, || facing(net, v)) || (is_tiny && faces_along(new, around()));
+        b == w || c == w || is_kept() || (is_tiny && is_thin(old) && is_thin(new))
+    })
 }
 
-/// Flips edges where the numbers of neighbours come nearer to what they should be, six and four at a rim.
-pub(super) fn flip_to_valence(net: &mut Net) {
+/// Whether the collapse of an edge to its end makes no edge longer than `longest`, squared, in wanted lengths.
+pub(super) fn keeps_lengths(net: &Net, h: u32, longest: f32) -> bool {
+    let (v, w) = (net.origin(h), net.end(h));
+    net.neighbours(v).all(|(n, _)| n == w || net.stretch_between(n, w) <= longest)
+}
+
+/// Flips edges where the numbers of neighbours come nearer to what they should be, six and four at a rim, and something
+/// has changed `since` then; returns how many.
+pub(super) fn flip_to_valence(net: &mut Net, since: u32) -> usize {
+    let mut count = 0;
     let mut excess = vec![-6i32; net.at.len()];
     for h in (0..net.half_edges()).filter(|&h| net.is_live(h)) {
         let v = net.origin(h) as usize;
@@ -219,7 +315,7 @@ pub(super) fn flip_to_valence(net: &mut Net) {
         excess[v] += if net.twin(h) == NONE { 3 } else { 0 };
     }
     for h in 0..net.half_edges() {
-        let Some(ends) = quad(net, h) else { continue };
+        let Some(ends) = quad(net, h).filter(|ends| ends.iter().any(|&v| net.was_touched(v, since))) else { continue };
         let gain = |v: u32, change: i32| {
             if net.kind[v as usize] == CORNER {
                 return 0;
@@ -230,21 +326,23 @@ pub(super) fn flip_to_valence(net: &mut Net) {
         let [v, w, a, b] = ends;
         if gain(v, -1) + gain(w, -1) + gain(a, 1) + gain(b, 1) > 0 && may_flip(net, ends, FLIP_QUALITY) {
             net.flip(h);
+            count += 1;
             excess[v as usize] -= 1;
             excess[w as usize] -= 1;
             excess[a as usize] += 1;
             excess[b as usize] += 1;
         }
     }
+    count
 }
 
-/// Flips edges where the least angle of the two triangles grows.
-pub(super) fn flip_to_angles(net: &mut Net) -> usize {
-    let mut count = 0;
+/// Flips edges where the least angle of the two triangles grows, and something has changed `since` then.
+pub(super) fn flip_to_angles(net: &mut Net, since: u32) {
     for h in 0..net.half_edges() {
-        count += usize::from(flip_if_wider(net, h));
+        if quad(net, h).is_some_and(|ends| ends.iter().any(|&v| net.was_touched(v, since))) {
+            flip_if_wider(net, h);
+        }
     }
-    count
 }
 
 /// Flips an edge if the least angle of its two triangles grows.
@@ -284,85 +382,49 @@ fn may_flip(net: &Net, [v, w, a, b]: [u32; 4], least: f32) -> bool {
     is_flat && turn && worst > least.min(was) && worst > 1e-4 && !net.are_neighbours(a, b)
 }
 
-/// Where a vertex goes.
-enum Step {
-    Stay,
-    /// Beside the surface.
-    Drift(Vec3),
-    Settle(Place),
-}
-
-/// Moves vertices along the surface to the middle of their triangles, each weighted by its area in wanted lengths; free
-/// ones are put back on the surface if `is_last`.
-pub(super) fn relax(net: &mut Net, original: &Original, is_last: bool) {
-    let steps = parallel::map_ranges(net.at.len(), CHUNK, |vertices| {
-        let step = |v: usize| {
-            if net.out[v] == NONE {
-                return Step::Stay;
-            }
-            let Some(p) = relaxed(net, v as u32) else { return Step::Stay };
-            let is_at_rest = p.distance(net.at[v]) < AT_REST * net.size[v];
-            if net.kind[v] == FREE && !is_last {
-                return if is_at_rest { Step::Stay } else { Step::Drift(p) };
-            }
-            if is_at_rest && !net.is_adrift[v] {
-                return Step::Stay;
-            }
-            original.project(net, v as u32, p).map_or(Step::Stay, Step::Settle)
-        };
-        vertices.map(step).collect::<Vec<Step>>()
-    });
-    for (v, step) in steps.into_iter().flatten().enumerate() {
-        match step {
-            Step::Stay => {}
-            Step::Drift(p) => {
-                if may_move(net, v as u32, p) {
-                    net.at[v] = p;
-                    net.is_adrift[v] = true;
-                }
-            }
-            Step::Settle(place) => {
-                if !settle(net, v as u32, &place) && net.is_adrift[v] {
-                    // It is back on the surface at least.
-                    if let Some(place) = original.project(net, v as u32, net.at[v]) {
-                        settle(net, v as u32, &place);
-                    }
-                }
+/// Moves the vertices that are awake along the surface to the middle of their triangles, one after the other.
+pub(super) fn relax(net: &mut Net, original: &Original) {
+    let mut ring = Ring::default();
+    for v in 0..net.at.len() as u32 {
+        if net.out[v as usize] == NONE || !net.is_awake[v as usize] {
+            continue;
+        }
+        net.is_awake[v as usize] = false;
+        let p = net.at[v as usize];
+        let is_ring = net.kind[v as usize] == FREE && ring.gather(net, v);
+        let (way, facing) = if is_ring { ring.pull() } else { (way_along_curve(net, v), Vec3::ZERO) };
+        let rest = AT_REST * net.size[v as usize];
+        let is_adrift = net.is_adrift[v as usize];
+        let way = way * DAMPING;
+        // False for what is no number.
+        let has_way = way.length_squared() >= rest * rest;
+        if !has_way && !is_adrift {
+            continue;
+        }
+        let to = if has_way { p + way } else { p };
+        let place = if is_ring { original.project_free(net, v, to, facing) } else { original.project(net, v, to) };
+        let Some(place) = place else { continue };
+        if is_ring && ring.surely_allows(place.at - p) {
+            put(net, v, &place);
+        } else if !settle(net, v, &place) && is_adrift {
+            // It is back on the surface at least.
+            if let Some(place) = original.project(net, v, p) {
+                settle(net, v, &place);
             }
         }
     }
 }
 
-/// Where a vertex would go, not yet on the surface.
-fn relaxed(net: &Net, v: u32) -> Option<Vec3> {
+/// Where a vertex of a curve would go, seen from it, not yet on the curve.
+fn way_along_curve(net: &Net, v: u32) -> Vec3 {
     let p = net.at[v as usize];
-    match net.kind[v as usize] {
-        CORNER => None,
-        FREE => {
-            let (mut sum, mut weights, mut normal) = (Vec3::ZERO, 0.0, Vec3::ZERO);
-            for h in net.around(v) {
-                let vertices = [h, next(h), prev(h)].map(|e| net.origin(e) as usize);
-                let [_, b, c] = vertices.map(|v| net.at[v]);
-                let size = vertices.iter().map(|&v| net.size[v]).sum::<f32>();
-                let area = doubled([p, b, c]);
-                let weight = area.length() / (size * size);
-                sum += ((b - p) + (c - p)) / 3.0 * weight;
-                weights += weight;
-                normal += area;
-            }
-            let (step, normal) = (sum / weights, normal.normalize_or_zero());
-            let along = step - normal * step.dot(normal);
-            along.is_finite().then(|| p + along * DAMPING)
-        }
-        _ => {
-            let [a, b] = net.along_curve(v)?;
-            let [to_a, to_b] = [a, b].map(|n| net.at[n as usize] - p);
-            let [size_a, size_b] = [a, b].map(|n| net.size[n as usize] + net.size[v as usize]);
-            let (long_a, long_b) = (to_a.length(), to_b.length());
-            let step = (long_a + long_b) * size_a / (size_a + size_b) - long_a;
-            let along = if step > 0.0 { to_b / long_b } else { to_a / long_a };
-            let moved = p + along * (step.abs() * DAMPING);
-            moved.is_finite().then_some(moved)
-        }
+    if matches!(net.kind[v as usize], CORNER | FREE) {
+        return Vec3::ZERO;
     }
+    let Some([a, b]) = net.along_curve(v) else { return Vec3::ZERO };
+    let [to_a, to_b] = [a, b].map(|n| net.at[n as usize] - p);
+    let [size_a, size_b] = [a, b].map(|n| net.size[n as usize] + net.size[v as usize]);
+    let (long_a, long_b) = (to_a.length(), to_b.length());
+    let step = (long_a + long_b) * size_a / (size_a + size_b) - long_a;
+    (if step > 0.0 { to_b / long_b } else { to_a / long_a }) * step.abs()
 }

@@ -235,6 +235,70 @@ fn the_deviation_keeps_to_its_bound_on_both_sides() {
 }
 
 #[test]
+fn deviations_are_those_of_each_sample_by_itself() {
+    // Rims, curvature, and edges long enough to cut corners.
+    let mesh = tube(40, 30, 20.0, |z| 2.0 + (z - 10.0) * (z - 10.0) / 60.0);
+    let found = remesh(&Patched::wall(mesh.clone()), &vec![2.0; mesh.positions.len()], &uniform(1.5)).unwrap();
+    let farthest = |of: &TriMesh, from: &TriMesh| {
+        let index = SurfaceIndex::new(&from.positions, &from.triangles);
+        let all = (0..of.triangles.len()).flat_map(|t| samples(of.corners(t)));
+        all.map(|p| f64::from(index.nearest(p).unwrap().distance)).fold(0.0, f64::max)
+    };
+    let new = &found.surface.mesh;
+    assert!((found.deviation.to_old_mm - farthest(new, &mesh)).abs() < 1e-6);
+    assert!((found.deviation.to_new_mm - farthest(&mesh, new)).abs() < 1e-6);
+    assert!(found.deviation.to_new_mm > 0.1);
+}
+
+#[test]
+fn of_creases_without_room_between_one_is_kept() {
+    let plate = |thick: f32| {
+        let mut mesh = cube(10.0);
+        mesh.positions.iter_mut().for_each(|p| p.z *= thick / 10.0);
+        remesh(&Patched::wall(mesh), &[f32::INFINITY; 8], &uniform(1.0)).unwrap()
+    };
+    let thick = plate(2.0);
+    assert_eq!((thick.curves, thick.corners), (12, 8));
+    let thin = plate(0.3);
+    assert_eq!((thin.curves, thin.corners), (4, 4));
+    assert!(thick.crossing.is_empty());
+    for found in [thick, thin] {
+        assert!(found.quality.below_30_deg <= 0.001, "{:?}", found.quality);
+        assert_eq!(euler(&found.surface.mesh), 2);
+    }
+}
+
+#[test]
+fn a_spike_narrower_than_a_triangle_goes() {
+    let mut mesh = icosphere(4, 10.0, Vec3::ZERO);
+    let base = mesh.triangles[100];
+    let middle = base.map(|v| mesh.positions[v as usize]).iter().sum::<Vec3>() / 3.0;
+    let first = mesh.positions.len() as u32;
+    // A neck, and a tip that is turned and shifted against it, so that its sides are slivers of every direction.
+    for (part, out, turn) in [(0.1, 0.2, 0), (0.03, 0.4, 1)] {
+        for i in 0..3 {
+            let corner = mesh.positions[base[(i + turn) % 3] as usize];
+            mesh.positions.push(middle.lerp(corner, part) * (1.0 + out / 10.0));
+        }
+    }
+    mesh.triangles.swap_remove(100);
+    let mut sides = |low: [u32; 3], high: [u32; 3]| {
+        for i in 0..3 {
+            let j = (i + 1) % 3;
+            mesh.triangles.extend([[low[i], low[j], high[j]], [low[i], high[j], high[i]]]);
+        }
+    };
+    let [neck, tip] = [0, 3].map(|from| [first + from, first + from + 1, first + from + 2]);
+    sides(base, neck);
+    sides(neck, tip);
+    mesh.triangles.push(tip);
+    let radii = vec![10.0; mesh.positions.len()];
+    let found = remesh(&Patched::wall(mesh), &radii, &uniform(2.0)).unwrap();
+    assert_good(&found);
+    assert_eq!(euler(&found.surface.mesh), 2);
+}
+
+#[test]
 fn vertices_blend_linear_values_of_the_old_ones() {
     let surface = capped(96, 60, 20.0, 3.0);
     let radii = vec![3.0; surface.mesh.positions.len()];

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 /// Cosine of the most that a face may turn in a change: 60 degrees.
-const MOST_TURN: f32 = 0.5;
+pub(super) const MOST_TURN: f32 = 0.5;
 /// A triangle whose quality is below this has no normal to compare with.
 const THIN: f32 = 0.02;
 
@@ -46,4 +46,17 @@ pub(super) fn may_become(old: [Vec3; 3], new: [Vec3; 3], facing: impl FnOnce() -
     let (reference, least) = if before > THIN { (doubled(old), MOST_TURN) } else { (facing(), 0.0) };
     let is_kept = normal.dot(reference) > least * normal.length() * reference.length();
     is_kept && after > (before * 0.9).min(0.1)
+}
+
+/// Whether a triangle is so thin that it has no normal to speak of.
+#[inline]
+pub(super) fn is_thin(corners: [Vec3; 3]) -> bool {
+    quality(corners) < THIN
+}
+
+/// Whether a triangle is no sliver and faces within 60 degrees of `facing`.
+#[inline]
+pub(super) fn faces_along(corners: [Vec3; 3], facing: Vec3) -> bool {
+    let normal = doubled(corners);
+    quality(corners) > 0.1 && normal.dot(facing) > MOST_TURN * normal.length() * facing.length()
 }
