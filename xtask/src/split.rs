@@ -181,7 +181,7 @@ fn early_functions(module: &Module, is_late: impl Fn(&str) -> bool) -> HashSet<F
         matches!(function.kind, FunctionKind::Local(_)) && function.name.as_deref().is_some_and(&is_late)
     };
     let imported = module.funcs.iter().filter(|function| matches!(function.kind, FunctionKind::Import(_)));
-    let mut early: HashSet<FunctionId> = imported.map(|function| function.id()).collect();
+    let mut early: HashSet<FunctionId> = imported.map(walrus::Function::id).collect();
     let mut open = roots(module);
     while let Some(id) = open.pop() {
         if !is_late(id) && early.insert(id) {
@@ -261,13 +261,13 @@ fn leave_stubs(early: &mut Module, table: TableId, late: impl Iterator<Item = Fu
 /// Leaves a module nothing but its functions.
 fn strip(module: &mut Module) {
     module.start = None;
-    let ids: Vec<_> = module.exports.iter().map(|export| export.id()).collect();
+    let ids: Vec<_> = module.exports.iter().map(walrus::Export::id).collect();
     ids.into_iter().for_each(|id| module.exports.delete(id));
-    let ids: Vec<_> = module.imports.iter().map(|import| import.id()).collect();
+    let ids: Vec<_> = module.imports.iter().map(walrus::Import::id).collect();
     ids.into_iter().for_each(|id| module.imports.delete(id));
-    let ids: Vec<_> = module.elements.iter().map(|element| element.id()).collect();
+    let ids: Vec<_> = module.elements.iter().map(walrus::Element::id).collect();
     ids.into_iter().for_each(|id| module.elements.delete(id));
-    let ids: Vec<_> = module.data.iter().map(|data| data.id()).collect();
+    let ids: Vec<_> = module.data.iter().map(walrus::Data::id).collect();
     ids.into_iter().for_each(|id| module.data.delete(id));
     module.tables.iter_mut().for_each(|table| table.elem_segments.clear());
     module.memories.iter_mut().for_each(|memory| memory.data_segments.clear());
@@ -299,7 +299,7 @@ fn import_all(
     for (ours, theirs) in memories.iter_mut().zip(early.memories.iter()) {
         ours.import = Some(import(theirs.id().into(), ours.id().into()));
     }
-    let ids: Vec<_> = globals.iter().map(|global| global.id()).collect();
+    let ids: Vec<_> = globals.iter().map(walrus::Global::id).collect();
     for (id, theirs) in ids.into_iter().zip(early.globals.iter()) {
         globals.get_mut(id).kind = GlobalKind::Import(import(theirs.id().into(), id.into()));
     }

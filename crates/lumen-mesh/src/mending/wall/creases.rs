@@ -30,9 +30,8 @@ impl Sheets {
         let mut known = [0.0; 2];
         for list in sheets.iter().filter(|list| list.len() >= least) {
             let places = list.iter().step_by(list.len().div_ceil(PLACES)).filter_map(|&t| Place::on(looks.mesh, t));
-            let (all, facing) = places
-                .fold((0, 0), |(all, facing), place| (all + 1, facing + usize::from(looks.faces_another_wall(&place))));
-            let part = facing as f64 / all.max(1) as f64;
+            let places: Vec<Place> = places.collect();
+            let part = looks.facing(&places);
             if !(OUTER..=INNER).contains(&part) {
                 list.iter().for_each(|&t| sides[t as usize] = Some(part > INNER));
                 known[usize::from(part > INNER)] += area(list);
@@ -64,8 +63,14 @@ impl Visibility<'_> {
         (0u32..).zip(&self.pieces.of_triangle).filter(|(_, p)| **p == piece).map(|(t, _)| t).collect()
     }
 
+    /// The part of places that face another wall.
+    pub(super) fn facing(&self, places: &[Place]) -> f64 {
+        let facing = places.iter().filter(|place| self.faces_another_wall(place)).count();
+        facing as f64 / places.len().max(1) as f64
+    }
+
     /// Whether straight out of a place its own piece is met from outside, as across a lumen.
-    pub(super) fn faces_another_wall(&self, place: &Place) -> bool {
+    fn faces_another_wall(&self, place: &Place) -> bool {
         self.met(place, place.normal)
             .is_some_and(|(_, met, cosine)| cosine < -PARALLEL && self.piece(met) == self.piece(place.triangle))
     }

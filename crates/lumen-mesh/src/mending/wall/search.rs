@@ -110,8 +110,7 @@ impl Visibility<'_> {
 
     /// The wall that a piece is whose sides come apart at creases.
     fn creased(&self, piece: u32, places: &[Place]) -> Option<Wall> {
-        let facing = places.iter().filter(|place| self.faces_another_wall(place)).count();
-        if !MAY_FACE.contains(&(facing as f64 / places.len().max(1) as f64)) {
+        if !MAY_FACE.contains(&self.facing(places)) {
             return None;
         }
         let topology = Topology::new(self.mesh.positions.len(), &self.mesh.triangles);
