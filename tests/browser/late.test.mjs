@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { OCTAHEDRON, atEntry, openFile, settled, shownTriangles, stlTriangles, workersOn } from "./app.mjs";
+import { OCTAHEDRON, atEntry, openFile, says, settled, shownTriangles, stlTriangles, workersOn } from "./app.mjs";
 import { COARSE, dist, eventually, launch, openApp, press } from "./browser.mjs";
 
 let browser;
@@ -24,7 +24,8 @@ const requests = (of) =>
 const served = (answer) => {
   let count = 0;
   return {
-    type: "application/wasm",
+    // Not every host knows what it is.
+    type: "application/octet-stream",
     get body() {
       return answer((count += 1));
     },
@@ -70,7 +71,11 @@ test("what could not be fetched at first is asked for again", async (t) => {
   const context = { ...COARSE, serviceWorkers: "block" };
   const files = { [NAME]: served((count) => (count < 3 ? Promise.reject(new Error("no network")) : whole())) };
   const { page } = await openApp(t, browser, { context, files });
-  await settled(page);
+  const shown = shownTriangles(await settled(page));
+  await openFile(page, OCTAHEDRON);
+  await says(page, /^Not opened: the part of Lumen that reads files could not be downloaded yet/);
+  assert.equal(shownTriangles(await settled(page)), shown);
+  await eventually(() => page.evaluate(() => Boolean(globalThis.lumenLateModule)), Boolean);
   await openFile(page, OCTAHEDRON);
   await eventually(() => settled(page), (all) => shownTriangles(all) < 8);
   assert((await requests(page)).every(({ waits }) => !waits));

@@ -112,10 +112,10 @@ fn take(inbox: &Inbox, waker: &Waker, gather: impl Future<Output = Result<Gather
     let (inbox, waker) = (Rc::clone(inbox), waker.clone());
     spawn_local(async move {
         let news = match gather.await {
-            Ok(gathered) => {
-                late::arrived().await;
-                gathered.news().await
-            }
+            Ok(gathered) => match late::arrived().await {
+                Ok(()) => gathered.news().await,
+                Err(message) => Err(message),
+            },
             Err(message) => Err(message),
         };
         let failed = |message| News::Event(PlatformEvent::Failed { message });

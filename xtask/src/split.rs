@@ -7,6 +7,7 @@
 //! Binaryen's `wasm-split` does the same, but is no part of its npm package.
 
 use std::collections::HashSet;
+use std::hash::{DefaultHasher, Hasher as _};
 use std::path::Path;
 
 use anyhow::{Context as _, Result};
@@ -109,7 +110,8 @@ const FROM: &str = "early";
 /// The early half's export that brings the late one (`web/src/late.rs`).
 const BRING: &str = "bring_late";
 
-/// The early half's export that says whether the late one is there: 0 or 1.
+/// The start of the name of the early half's export that says whether the late one is there: 0 or 1. What follows is a hash
+/// of the whole, so that halves of two builds do not go together.
 const IS_THERE: &str = "lateIsThere";
 
 /// The late half has copies of early functions of at most so many instructions.
@@ -138,7 +140,10 @@ fn halves(whole: &[u8], is_late: impl Fn(&str) -> bool) -> Result<(Vec<u8>, Vec<
 
     let table = main_table(&early)?;
     let base = early.tables.get(table).initial;
-    leave_stubs(&mut early, table, stubs.iter().map(|&(id, _)| id))?;
+    let mut hasher = DefaultHasher::new();
+    hasher.write(whole);
+    let is_there = format!("{IS_THERE}{:016x}", hasher.finish());
+    leave_stubs(&mut early, &is_there, table, stubs.iter().map(|&(id, _)| id))?;
 
     strip(&mut late);
     // A call from one half to the other takes longer than one within a half.
@@ -146,7 +151,7 @@ fn halves(whole: &[u8], is_late: impl Fn(&str) -> bool) -> Result<(Vec<u8>, Vec<
         |id| matches!(&early.funcs.get(id).kind, FunctionKind::Local(function) if function.size() <= COPIED);
     let imported = pairs.into_iter().filter(|&(id, _)| kept.contains(&id) && !is_copied(id));
     let items = import_all(&mut late, &early, imported);
-    let flag = late.add_import_global(FROM, IS_THERE, ValType::I32, true, false).0;
+    let flag = late.add_import_global(FROM, &is_there, ValType::I32, true, false).0;
     let mut start = FunctionBuilder::new(&mut late.types, &[], &[]);
     start.func_body().i32_const(1).global_set(flag);
     late.start = Some(start.finish(Vec::new(), &mut late.funcs));
@@ -226,10 +231,10 @@ fn callees(module: &Module, id: FunctionId) -> Vec<FunctionId> {
 }
 
 /// Puts stubs in the place of late functions, and makes room for the functions at the end of the table.
-fn leave_stubs(early: &mut Module, table: TableId, late: impl Iterator<Item = FunctionId>) -> Result<()> {
+fn leave_stubs(early: &mut Module, name: &str, table: TableId, late: impl Iterator<Item = FunctionId>) -> Result<()> {
     let bring = early.exports.get_func(BRING)?;
     let is_there = early.globals.add_local(ValType::I32, true, false, ConstExpr::Value(Value::I32(0)));
-    early.exports.add(IS_THERE, is_there);
+    early.exports.add(name, is_there);
     let mut place = early.tables.get(table).initial;
     for id in late {
         let ty = early.funcs.get(id).ty();
@@ -370,7 +375,12 @@ mod tests {
         std::fs::create_dir_all(&folder).unwrap();
         let whole = whole();
         let (early, late) = halves(&whole, |name| name.starts_with("late::")).unwrap();
-        for (name, bytes) in [("whole", &whole), ("early", &early), ("late", &late)] {
+        // The same but for what is in memory: all calls fit.
+        let mut other = whole.clone();
+        let forty = other.windows(4).position(|bytes| bytes == [40, 0, 0, 0]).unwrap();
+        other[forty] = 41;
+        let (_, other) = halves(&other, |name| name.starts_with("late::")).unwrap();
+        for (name, bytes) in [("whole", &whole), ("early", &early), ("late", &late), ("other", &other)] {
             std::fs::write(folder.join(name), bytes).unwrap();
         }
         let script = r#"
@@ -384,8 +394,10 @@ mod tests {
             const whole = new WebAssembly.Instance(compiled("whole"), { env }).exports;
             said.push(whole.count(2), whole.go(1), whole.go(5));
             early = new WebAssembly.Instance(compiled("early"), { env }).exports;
-            said.push(early.count(2), early.lateIsThere.value, early.go(1), early.lateIsThere.value, early.go(5));
+            const isThere = early[Object.keys(early).find((name) => name.startsWith("lateIsThere"))];
+            said.push(early.count(2), isThere.value, early.go(1), isThere.value, early.go(5));
             console.log(said.join(", "));
+            try { new WebAssembly.Instance(compiled("other"), { early }); } catch (error) { console.log(error.name); }
         "#;
         let node = Command::new("node").args(["-e", script]).current_dir(&folder).output().unwrap();
         std::fs::remove_dir_all(&folder).unwrap();
@@ -393,7 +405,8 @@ mod tests {
         // 40 and what was asked for; the second call adds one to the first one's result.
         let expected =
             "log 1, log 42, log 5, log 46, 42, 82, 86, bring, log 1, log 42, log 5, log 46, 42, 0, 82, 1, 86";
-        assert_eq!(String::from_utf8_lossy(&node.stdout).trim(), expected);
+        let said = String::from_utf8_lossy(&node.stdout);
+        assert_eq!(said.lines().collect::<Vec<_>>(), [expected, "LinkError"]);
         // What only late functions call has gone with them; what all call stands in both where it is short.
         assert!(
             early.len() < whole.len() + 400

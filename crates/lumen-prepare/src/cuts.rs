@@ -80,7 +80,7 @@ pub async fn cuts(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<Cuts
     plan.check()?;
     check_surface(mesh)?;
     let mut notes = Vec::new();
-    let wrapped = wrapped(mesh, plan, true, &mut notes, &yielder.part(0.0..0.05)).await?;
+    let wrapped = wrapped(mesh, plan, &mut notes, &yielder.part(0.0..0.05)).await?;
     let mesh = vessel(wrapped.as_ref().unwrap_or(mesh), true, &mut notes, &yielder.part(0.05..0.1)).await?;
     yielder.rest(0.1).await;
     let (mut ends, strays) = planned(&mesh, plan, &yielder.part(0.1..0.9)).await?;

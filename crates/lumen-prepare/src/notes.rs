@@ -115,6 +115,17 @@ messages! {
             /// How far the wrap is from what it wraps at most, in mm.
             deviation_mm: f64 [3],
         } => "The surface is wrapped, at most {deviation_mm:.3} mm away.",
+        /// The wrap went into the vessel.
+        "solver-note-wrap-hollow" WrapHollow {
+            /// Where an end is that it went through, in mm.
+            at: [f32; 3],
+        } => {
+            let at = place(*at);
+            format!(
+                "The wrap goes into the vessel at {at}: the wall has gaps wider than the tolerance, and it is the wall that is \
+                 wrapped. Try a larger tolerance."
+            )
+        },
     }
 }
 
@@ -161,6 +172,13 @@ messages! {
             /// One that may do, in mm.
             least_mm: f64 [2],
         } => "a wrap within {tolerance_mm:.2} mm would be too large: try {least_mm:.2} mm",
+        /// A wrap within the tolerance would have no shape.
+        "solver-error-wrap-coarse" WrapCoarse {
+            /// The tolerance, in mm.
+            tolerance_mm: f64 [2],
+            /// The largest, in mm.
+            most_mm: f64 [2],
+        } => "a wrap within {tolerance_mm:.2} mm would have nothing of the surface's shape: try {most_mm:.2} mm or less",
     }
 }
 

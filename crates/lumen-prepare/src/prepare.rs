@@ -110,7 +110,7 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     plan.check()?;
     check_surface(mesh)?;
     let mut notes = Vec::new();
-    let wrapped = wrapped(mesh, plan, plan.is_of_vessels(), &mut notes, &yielder.part(0.0..WRAPPED)).await?;
+    let wrapped = wrapped(mesh, plan, &mut notes, &yielder.part(0.0..WRAPPED)).await?;
     let mesh = wrapped.as_ref().unwrap_or(mesh);
     let yielder = &yielder.part(if wrapped.is_some() { WRAPPED } else { 0.0 }..1.0);
     let mesh = vessel(mesh, plan.is_of_vessels(), &mut notes, &yielder.part(0.0..0.05)).await?;
@@ -173,17 +173,15 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     Ok(Prepared { surface, fate, notes, crossing, remeshed })
 }
 
-/// The wrap of a surface, where one is asked for: of a wall that of its lumen, where it `is_of_vessels` and can be told already.
+/// The wrap of a surface, where one is asked for: of a wall that of its lumen, where that can be told.
 pub(crate) async fn wrapped(
     mesh: &TriMesh,
     plan: &Plan,
-    is_of_vessels: bool,
     notes: &mut Vec<Note>,
     yielder: &Yielder,
 ) -> Result<Option<TriMesh>, PrepareError> {
     let Some(tolerance_mm) = plan.wrap else { return Ok(None) };
-    let lumen =
-        if is_of_vessels { without_wall(split(mesh).mesh, notes, &yielder.part(0.0..0.1)).await.ok() } else { None };
+    let lumen = without_wall(split(mesh).mesh, notes, &yielder.part(0.0..0.1)).await.ok();
     let part = yielder.part(0.1..1.0);
     wrap(lumen.as_ref().unwrap_or(mesh), tolerance_mm, plan.clips(), notes, &part).await.map(Some)
 }

@@ -19,7 +19,7 @@
 //!
 //! What lies inside is gone, and gaps and crevices narrower than the tolerance are closed. A wall with two sides whose lumen can
 //! be reached keeps both. An open end of a soup whose triangles are farther apart than the tolerance is not known for one: the
-//! flood goes in, and what is wrapped is the wall.
+//! flood goes in, and what is wrapped is the wall; where a lid shows that, a note says so.
 
 mod fit;
 mod grid;
@@ -35,7 +35,7 @@ use lumen_mesh::mending::split::split;
 use lumen_mesh::mending::weld::weld_in_slices;
 use lumen_mesh::task::Yielder;
 use lumen_mesh::winding::make_consistent;
-use lumen_mesh::{SurfaceIndex, Topology, TriMesh, Vec3, boundary_loops, components, reach};
+use lumen_mesh::{SurfaceIndex, Topology, TriMesh, Vec3, boundary_loops, components, reach, triangle_area};
 use lumen_volume::MarchingCubes;
 
 use self::fit::fit;
@@ -50,6 +50,8 @@ const STEP: f64 = 0.577;
 /// The parts of the tolerance within which the rim of an end lies in a plane, and by which it is cut inside of that.
 const FLAT: f64 = 0.5;
 const INSIDE: f64 = 0.35;
+/// The tolerance may be this part of the width of the whole, which is the second largest of its extents.
+const MOST_OF_WIDTH: f64 = 0.5;
 /// Triangles of a wrap, at most.
 pub const MOST_TRIANGLES: usize = 6_000_000;
 
@@ -83,7 +85,8 @@ impl Lid {
 /// they `are_cut` after, else they stay closed.
 ///
 /// # Errors
-/// [`PrepareError::Wrap`], where that takes too many points or triangles; [`PrepareError::Empty`].
+/// [`PrepareError::Wrap`], where that takes too many points or triangles; [`PrepareError::WrapCoarse`];
+/// [`PrepareError::Empty`].
 pub async fn wrap(
     mesh: &TriMesh,
     tolerance_mm: f64,
@@ -92,21 +95,34 @@ pub async fn wrap(
     yielder: &Yielder,
 ) -> Result<TriMesh, PrepareError> {
     let step = STEP * tolerance_mm;
-    let least_step = least_step(mesh.bounds().size().as_dvec3());
+    let extent = mesh.bounds().size().as_dvec3();
+    let mut sides = extent.to_array();
+    sides.sort_unstable_by(f64::total_cmp);
+    let most_mm = MOST_OF_WIDTH * sides[1];
+    if tolerance_mm > most_mm {
+        return Err(PrepareError::WrapCoarse { tolerance_mm, most_mm });
+    }
+    let least_step = least_step(extent);
+    let too_fine = |least_mm: f64| PrepareError::Wrap { tolerance_mm, least_mm: rounded_up(least_mm) };
+    // Marching cubes make two triangles for each square of the grid where the surface is level, and more where it is not.
+    let by_area = (3.5 * area(mesh) / MOST_TRIANGLES as f64).sqrt() / STEP;
     if step < least_step {
-        return Err(PrepareError::Wrap { tolerance_mm, least_mm: least_step / STEP });
+        return Err(too_fine(by_area.max(least_step / STEP)));
     }
     let Closed { mesh: closed, lids } = closed(mesh, tolerance_mm, notes, &yielder.part(0.0..0.2)).await;
     let outside = Outside::of(&closed, step, REACH * tolerance_mm, &yielder.part(0.2..0.4)).await;
     let cubes = MarchingCubes::new(&outside.geometry(), Inside { of: &outside, slice: 0 });
     let Some(mut mesh) = cubes.surface(MOST_TRIANGLES, &yielder.part(0.4..0.5)).await else {
-        return Err(PrepareError::Wrap { tolerance_mm, least_mm: 1.5 * tolerance_mm });
+        return Err(too_fine(by_area.max(1.5 * tolerance_mm)));
     };
     let index = SurfaceIndex::build(&closed.positions, &closed.triangles, &yielder.part(0.5..0.55)).await;
     fit(&mut mesh, &index, &outside, tolerance_mm, &yielder.part(0.55..0.9)).await;
     let found = reach(&mesh, &index, 0.0, &yielder.part(0.9..0.98)).await;
     let deviation_mm = found.map_or(0.0, |found| found.farthest.distance);
     notes.push(Note::Wrapped { deviation_mm });
+    if let Some(lid) = lids.iter().find(|lid| lid.is_flooded(&outside, tolerance_mm)) {
+        notes.push(Note::WrapHollow { at: lid.centre.as_vec3().to_array() });
+    }
     let seen = |lid: &Lid| lid.plane(&outside, tolerance_mm);
     let (flat, ragged): (Vec<_>, Vec<_>) =
         lids.iter().filter_map(|lid| Some((lid, seen(lid)?))).partition(|(lid, _)| lid.is_flat(tolerance_mm));
@@ -126,6 +142,17 @@ pub async fn wrap(
         nearest.is_some_and(|nearest| ragged.iter().any(|(lid, _)| lid.triangles.contains(&nearest.triangle)))
     };
     Ok(without(&mesh, is_of_lid))
+}
+
+/// The area of a surface, in mm2.
+fn area(mesh: &TriMesh) -> f64 {
+    (0..mesh.triangles.len()).map(|t| triangle_area(mesh.corners(t))).sum()
+}
+
+/// The next number of two digits.
+fn rounded_up(mm: f64) -> f64 {
+    let unit = libm::pow(10.0, libm::floor(libm::log10(mm)) - 1.0);
+    libm::ceil(mm / unit) * unit
 }
 
 /// The surface without some of its triangles, those at vertices where what is left would only touch, and crumbs.
@@ -224,11 +251,20 @@ impl Lid {
         self.inwards_mm + self.outwards_mm <= FLAT * tolerance_mm
     }
 
+    /// Whether the end is outside on both sides: the flood went in.
+    fn is_flooded(&self, outside: &Outside, tolerance_mm: f64) -> bool {
+        self.is_outside(outside, tolerance_mm) == [true; 2]
+    }
+
+    /// Whether what lies before and behind the lid is outside.
+    fn is_outside(&self, outside: &Outside, tolerance_mm: f64) -> [bool; 2] {
+        let before = |normal: DVec3, mm: f64| outside.has(self.centre + normal * (mm + 2.0 * tolerance_mm));
+        [before(self.normal, self.outwards_mm), before(-self.normal, self.inwards_mm)]
+    }
+
     /// Where the end is cut open; `None` where it is not seen from outside on one side alone.
     fn plane(&self, outside: &Outside, tolerance_mm: f64) -> Option<EndPlane> {
-        let before = |normal: DVec3, mm: f64| outside.has(self.centre + normal * (mm + 2.0 * tolerance_mm));
-        let both = [before(self.normal, self.outwards_mm), before(-self.normal, self.inwards_mm)];
-        let (normal, inwards_mm) = match both {
+        let (normal, inwards_mm) = match self.is_outside(outside, tolerance_mm) {
             [true, false] => (self.normal, self.inwards_mm),
             [false, true] => (-self.normal, self.outwards_mm),
             _ => return None,

@@ -66,6 +66,7 @@ scan-close = Scan schließen
 ## Was gerade getan wird
 
 scan-fetching = Der Teil von Lumen, der Scans liest, wird noch geladen
+scan-part-missing = Nicht geöffnet: Der Teil von Lumen, der Dateien liest, konnte noch nicht geladen werden. Versuchen Sie es gleich noch einmal
 scan-reading = Scan wird gelesen
 scan-surveying = Werte zählen
 scan-making = Oberfläche bilden

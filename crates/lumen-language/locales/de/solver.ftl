@@ -149,6 +149,7 @@ solver-note-wall = Die Öffnung bei ({ $at }) ist als Teil der Wand geschlossen:
 solver-note-shorter = Die Verlängerung von { $name } ist nur { $mm } mm lang: weiter draußen träfe sie auf etwas.
 solver-note-not-extended = { $name } ist nicht verlängert: { $why }.
 solver-note-wrapped = Die Oberfläche ist umhüllt, höchstens { $deviation_mm } mm entfernt.
+solver-note-wrap-hollow = Die Hülle reicht bei { $at } ins Gefäß: die Wand hat Spalten, die breiter als die Toleranz sind, und umhüllt ist die Wand. Versuchen Sie eine größere Toleranz.
 
 ## Warum
 
@@ -176,3 +177,4 @@ solver-error-mend = Kanten haben mehr als zwei Dreiecke, oder Dreiecke zeigen in
 solver-error-sizes = die gewünschten Längen ergeben keinen Sinn
 solver-error-many = so kurze Kanten ergeben etwa { $about } Dreiecke, und höchstens { $most } werden gebildet
 solver-error-wrap = eine Hülle innerhalb von { $tolerance_mm } mm würde zu groß: versuchen Sie { $least_mm } mm
+solver-error-wrap-coarse = eine Hülle innerhalb von { $tolerance_mm } mm hätte nichts mehr von der Form der Oberfläche: versuchen Sie höchstens { $most_mm } mm

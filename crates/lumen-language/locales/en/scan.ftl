@@ -83,6 +83,7 @@ scan-close = Close the scan
 ## What is being done: in the panel, and in the bar before a percentage
 
 scan-fetching = The part of Lumen that reads scans is still being fetched
+scan-part-missing = Not opened: the part of Lumen that reads files could not be downloaded yet. Try again in a moment
 scan-reading = Reading the scan
 scan-surveying = Counting values
 scan-making = Making the surface

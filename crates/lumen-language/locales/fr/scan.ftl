@@ -66,6 +66,7 @@ scan-close = Fermer le scan
 ## Ce qui est en cours
 
 scan-fetching = La partie de Lumen qui lit les scans est encore en cours de chargement
+scan-part-missing = Pas ouvert : la partie de Lumen qui lit les fichiers n'a pas encore pu être téléchargée. Réessayez dans un instant
 scan-reading = Lecture du scan
 scan-surveying = Comptage des valeurs
 scan-making = Création de la surface

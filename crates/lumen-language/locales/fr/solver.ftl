@@ -149,6 +149,7 @@ solver-note-wall = L'ouverture en ({ $at }) est fermée comme partie de la paroi
 solver-note-shorter = Le prolongement de { $name } ne fait que { $mm } mm : plus loin, il rencontrerait quelque chose.
 solver-note-not-extended = { $name } n'est pas prolongé : { $why }.
 solver-note-wrapped = La surface est enveloppée, à { $deviation_mm } mm au plus.
+solver-note-wrap-hollow = L'enveloppe entre dans le vaisseau en { $at } : la paroi a des fentes plus larges que la tolérance, et c'est elle qui est enveloppée. Essayez une tolérance plus grande.
 
 ## Pourquoi
 
@@ -176,3 +177,4 @@ solver-error-mend = des arêtes ont plus de deux triangles, ou des triangles reg
 solver-error-sizes = les longueurs demandées n'ont pas de sens
 solver-error-many = des arêtes aussi courtes font environ { $about } triangles, et { $most } au plus sont faits
 solver-error-wrap = une enveloppe à { $tolerance_mm } mm près serait trop grande : essayez { $least_mm } mm
+solver-error-wrap-coarse = une enveloppe à { $tolerance_mm } mm près n'aurait plus rien de la forme de la surface : essayez { $most_mm } mm au plus

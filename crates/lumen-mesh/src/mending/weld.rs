@@ -7,7 +7,8 @@
 //!
 //! Nothing collapses: no two ends of an edge become one, so no triangle is lost, and no vertex is joined over more than
 //! [`REACH`] of the mean length of the edges at it, so a rim as narrow as its own triangles stays open, whatever the
-//! tolerance. What this does not do: a vertex that lies along another's edge (a T-junction) is joined to nothing.
+//! tolerance. Nor are two vertices joined that a rim leads from one to the other in less than [`ALONG`] times their
+//! distance: they are one stretch of it, and not its two sides. What this does not do: a vertex that lies along another's edge (a T-junction) is joined to nothing.
 
 use std::ops::Range;
 
@@ -19,6 +20,8 @@ use crate::{Blend, SurfaceIndex, Topology, TriMesh};
 
 /// The part of the mean length of its edges by which a vertex is joined at most.
 pub const REACH: f32 = 0.5;
+/// A rim that leads from one vertex to another in less than so many times their distance does not meet itself there.
+const ALONG: f32 = 3.0;
 /// Partners that are considered for a vertex, the nearest.
 const PARTNERS: usize = 16;
 /// Vertices that become one, at most.
@@ -106,7 +109,8 @@ impl Rims {
                     let other = other as usize;
                     let squared = p.distance_squared(mesh.positions[open[other] as usize]);
                     let least = reach[at].min(reach[other]);
-                    if other != at && squared <= least * least && topology.edge(v, open[other]).is_none() {
+                    let may_join = || !are_one_stretch(mesh, topology, v, open[other]);
+                    if other != at && squared <= least * least && may_join() {
                         near.push((squared, open[other]));
                     }
                 });
@@ -119,6 +123,31 @@ impl Rims {
         });
         found.concat()
     }
+}
+
+/// Whether two vertices are joined by an edge, or by so short a stretch of open edges that joining them would fold it.
+fn are_one_stretch(mesh: &TriMesh, topology: &Topology, v: u32, w: u32) -> bool {
+    if topology.edge(v, w).is_some() {
+        return true;
+    }
+    let length = |a: u32, b: u32| mesh.positions[a as usize].distance(mesh.positions[b as usize]);
+    let farthest = ALONG * length(v, w);
+    let open = |at: u32| {
+        let edges = topology.neighbours(at).iter().zip(topology.edge_uses(at));
+        edges.filter(|(_, edge)| edge.is_boundary()).map(|(&other, _)| other)
+    };
+    open(v).any(|first| {
+        let (mut before, mut at, mut gone) = (v, first, length(v, first));
+        while gone < farthest && at != v {
+            let Some(next) = open(at).find(|&next| next != before) else { return false };
+            if next == w {
+                return gone + length(at, w) < farthest;
+            }
+            gone += length(at, next);
+            (before, at) = (at, next);
+        }
+        false
+    })
 }
 
 /// Joins the pairs, the nearest first.
@@ -135,7 +164,9 @@ fn join(mesh: &TriMesh, topology: &Topology, rims: &Rims, mut pairs: Vec<Pair>) 
     let mut clusters = Clusters::new(mesh.positions.len());
     let farthest = rims.tolerance * rims.tolerance;
     for Pair { low, high, .. } in pairs {
-        clusters.join(low, high, |v, w| at(v).distance_squared(at(w)) <= farthest && topology.edge(v, w).is_none());
+        clusters.join(low, high, |v, w| {
+            at(v).distance_squared(at(w)) <= farthest && !are_one_stretch(mesh, topology, v, w)
+        });
     }
     let (row_of, rows) = clusters.numbered();
     let joined = mesh.positions.len() - rows;
@@ -249,6 +280,15 @@ mod tests {
         let welded = weld(&thin, 1.0);
         assert_eq!((&welded.mesh, welded.joined), (&thin, 0));
         assert_eq!(welded.limited, 10, "at every vertex of both rims");
+    }
+
+    #[test]
+    fn a_rim_of_short_edges_is_not_folded_onto_itself() {
+        // Edges of 0.1 along the rim and of 1 along the tube: two that follow each other are within reach of their ends.
+        let mesh = tube(120, 20, 20.0, |_| 2.0);
+        for tolerance in [0.15, 0.25, 1.0] {
+            assert_eq!(weld(&mesh, tolerance).joined, 0, "{tolerance}");
+        }
     }
 
     #[test]

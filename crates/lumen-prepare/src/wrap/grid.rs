@@ -6,7 +6,7 @@
 //! words.
 
 use glam::{DVec3, Vec3};
-use lumen_mesh::task::{Yielder, blocks};
+use lumen_mesh::task::Yielder;
 use lumen_mesh::{TriMesh, distance_to_triangle};
 use lumen_volume::{Geometry, Mask};
 use std::ops::Range;
@@ -15,7 +15,7 @@ use std::ops::Range;
 const SIDE: usize = 8;
 /// Blocks of a grid at most: 64 MB of numbers.
 const MOST_BLOCKS: f64 = (1u32 << 24) as f64;
-/// Triangles, or blocks, between two looks at the clock.
+/// Blocks and triangles between two looks at the clock.
 const SLICE: usize = 512;
 /// A block without a blocked point: not reached, and reached.
 const FREE: u32 = u32::MAX;
@@ -70,10 +70,13 @@ impl Outside {
         let size = (extent + 2.0 * (reach + step)).to_array().map(|mm| libm::ceil(mm / side) as usize + 3);
         let states = vec![FREE; size.iter().product()];
         let mut grid = Self { origin, step, size, states, blocked: Vec::new(), outside: Vec::new() };
-        for range in blocks(mesh.triangles.len(), SLICE) {
-            let done = range.end as f32 / mesh.triangles.len() as f32;
-            range.for_each(|t| grid.block(mesh.corners(t), reach));
-            yielder.rest(0.7 * done).await;
+        let mut seen = 0;
+        for t in 0..mesh.triangles.len() {
+            seen += 1 + grid.block(mesh.corners(t), reach);
+            if seen >= SLICE {
+                seen = 0;
+                yielder.rest(0.7 * t as f32 / mesh.triangles.len() as f32).await;
+            }
         }
         grid.outside = vec![[0; SIDE]; grid.blocked.len()];
         grid.flood(yielder).await;
@@ -104,8 +107,8 @@ impl Outside {
         (z * self.size[1] + y) * self.size[0] + x
     }
 
-    /// Blocks the points within `reach` of a triangle.
-    fn block(&mut self, corners: [Vec3; 3], reach: f64) {
+    /// Blocks the points within `reach` of a triangle; returns how many blocks were looked at.
+    fn block(&mut self, corners: [Vec3; 3], reach: f64) -> usize {
         let places = corners.map(|p| (p.as_dvec3() - self.origin) / self.step);
         let low = places.into_iter().reduce(DVec3::min).unwrap_or_default() - reach / self.step;
         let high = places.into_iter().reduce(DVec3::max).unwrap_or_default() + reach / self.step;
@@ -115,6 +118,7 @@ impl Outside {
         let to_corner = 0.5 * (SIDE - 1) as f64 * libm::sqrt(3.0) * self.step;
         let of_blocks = |axis: usize| low[axis] / SIDE..=high[axis] / SIDE;
         let mut marks = Vec::new();
+        let seen = [0, 1, 2].map(|axis| of_blocks(axis).count()).iter().product();
         for z in of_blocks(2) {
             for y in of_blocks(1) {
                 for x in of_blocks(0) {
@@ -151,6 +155,7 @@ impl Outside {
                 self.blocked[self.states[number] as usize] = bits;
             }
         }
+        seen
     }
 
     /// Goes out from the first block, which is at the border, to all that is outside.

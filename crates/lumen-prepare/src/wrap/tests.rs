@@ -54,6 +54,32 @@ fn soup(mesh: &TriMesh, part: f32) -> TriMesh {
     soup
 }
 
+#[test]
+fn a_vessel_with_short_edges_at_its_rims_is_wrapped_as_its_lumen() {
+    let mesh = tube(120, 20, 20.0, |_| 2.0);
+    let (found, ends) = wrapped(&mesh, 0.3, |p| from_tube(p, 2.0, 20.0));
+    assert_eq!(ends, 2);
+    let topology = Topology::new(found.positions.len(), &found.triangles);
+    // Open ends: by the flux through the wall and the flat ends, less what was cut off within the tolerance.
+    let part = volume(&found, &topology) / (PI * 4.0 * 20.0);
+    assert!((0.9..1.1).contains(&part), "{part}");
+}
+
+#[test]
+fn a_tolerance_that_leaves_no_shape_is_refused() {
+    let mesh = tube(48, 40, 20.0, |_| 2.0);
+    let found = |mm| at_once(wrap(&mesh, mm, true, &mut Vec::new(), &Yielder::never()));
+    for mm in [2.1, 1e18, 1e308, f64::INFINITY] {
+        let Err(PrepareError::WrapCoarse { most_mm, .. }) = found(mm) else { panic!("{mm}") };
+        assert!((most_mm - 2.0).abs() < 0.01);
+    }
+    // One that is too fine: what is proposed has more than two and fewer than six million triangles on 251 mm2.
+    let Err(PrepareError::Wrap { least_mm, .. }) = found(1e-4) else { panic!() };
+    let least = |triangles: f64| (2.0 * 251.0 / triangles).sqrt() / STEP;
+    assert!((least(6e6)..least(2e6)).contains(&least_mm), "{least_mm}");
+    assert!((rounded_up(0.0123) - 0.013).abs() < 1e-12 && (rounded_up(450.0) - 450.0).abs() < 1e-9);
+}
+
 /// The distance from a tube along z of this radius and length.
 fn from_tube(p: DVec3, radius: f64, length: f64) -> f64 {
     let beyond = (p.z - length).max(-p.z).max(0.0);

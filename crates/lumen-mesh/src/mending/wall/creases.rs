@@ -11,6 +11,8 @@ use crate::{Topology, triangle_area};
 const CREASE: f64 = 0.866;
 /// Of a piece's area, what must be on sheets whose side is known.
 const MIN_KNOWN: f64 = 0.8;
+/// Of the inner side's places, those that line a space closed nearly all around; near the ends they do not.
+const MIN_LINING: f64 = 0.5;
 /// Of a piece's places, those that may face another wall of it where it is looked for creases: of a vessel without a wall few do.
 pub(super) const MAY_FACE: std::ops::RangeInclusive<f64> = 0.2..=0.8;
 
@@ -43,7 +45,8 @@ impl Sheets {
     }
 
     /// How thick the wall is behind places of the inner side, and how wide the space before them; `None` where too few have
-    /// the outer side behind them.
+    /// the outer side behind them, or line a space that is closed nearly all around: the legs of a bent body face each other
+    /// too.
     pub(super) fn across(&self, looks: &Visibility<'_>, places: &[Place]) -> Option<(Vec<f64>, Vec<f64>)> {
         let inner: Vec<&Place> =
             places.iter().filter(|place| self.sides[place.triangle as usize] == Some(true)).collect();
@@ -53,7 +56,9 @@ impl Sheets {
             (cosine < -PARALLEL && self.sides[behind as usize] == Some(false)).then_some((way, width))
         });
         let (ways, widths): (Vec<f64>, Vec<f64>) = measured.unzip();
-        (!ways.is_empty() && ways.len() as f64 >= MIN_SEEN * inner.len() as f64).then_some((ways, widths))
+        let lining = inner.iter().filter(|place| looks.lines_a_space(place)).count();
+        let is_lumen = lining as f64 >= MIN_LINING * inner.len() as f64;
+        (is_lumen && !ways.is_empty() && ways.len() as f64 >= MIN_SEEN * inner.len() as f64).then_some((ways, widths))
     }
 }
 

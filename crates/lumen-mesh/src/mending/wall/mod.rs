@@ -93,6 +93,8 @@ pub async fn find_in_slices(
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
     use crate::mending::holes::{Opening, holes};
     use crate::shapes::{icosphere, joined, tube};
@@ -176,6 +178,45 @@ mod tests {
         assert_eq!(found.lumen.expect("it is a piece").mesh, inner);
         let tubes = joined(&[tube(32, 40, 30.0, |_| 3.0), tube(32, 40, 30.0, |_| 3.6)]);
         assert!(find(&tubes, false).wall.is_some_and(|wall| (wall.thickness_mm - 0.6).abs() < 0.05));
+    }
+
+    #[test]
+    fn a_bent_body_whose_legs_face_each_other_is_no_wall() {
+        // A U of a section of 5 x 20 mm with a gap of 10 mm between its legs, of cubes of 1 mm.
+        let is_in = |[x, y, z]: [i32; 3]| {
+            (0..20).contains(&x) && (0..20).contains(&y) && (0..40).contains(&z) && (!(5..15).contains(&x) || z < 5)
+        };
+        let (mut mesh, mut numbers) = (TriMesh::default(), BTreeMap::new());
+        let cells = (0..20).flat_map(|x| (0..20).flat_map(move |y| (0..40).map(move |z| [x, y, z])));
+        for (cell, axis, side) in cells
+            .filter(|&cell| is_in(cell))
+            .flat_map(|cell| (0..6).map(move |face| (cell, face % 3, (face / 3) as i32)))
+        {
+            let mut beside = cell;
+            beside[axis] += 2 * side - 1;
+            if is_in(beside) {
+                continue;
+            }
+            let corner = |first: i32, second: i32| {
+                let mut at = cell;
+                at[axis] += side;
+                at[(axis + 1) % 3] += first;
+                at[(axis + 2) % 3] += second;
+                at
+            };
+            let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)].map(|at| {
+                *numbers.entry(at).or_insert_with(|| {
+                    mesh.positions.push(Vec3::from(at.map(|x| x as f32)));
+                    mesh.positions.len() as u32 - 1
+                })
+            });
+            mesh.triangles.extend(if side == 1 { [[a, b, c], [a, c, d]] } else { [[a, c, b], [a, d, c]] });
+        }
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        assert!(
+            topology.is_consistent() && (volume(&mesh, &topology) - (20.0 * 40.0 - 10.0 * 35.0) * 20.0).abs() < 1e-3
+        );
+        assert_eq!(find(&mesh, true), WallFound { wall: None, lumen: None });
     }
 
     #[test]
