@@ -21,7 +21,7 @@ use crate::{Blend, SurfaceIndex, Topology, TriMesh};
 /// The part of the mean length of its edges by which a vertex is joined at most.
 pub const REACH: f32 = 0.5;
 /// A rim that leads from one vertex to another in less than so many times their distance does not meet itself there.
-const ALONG: f32 = 3.0;
+pub const ALONG: f32 = 3.0;
 /// Partners that are considered for a vertex, the nearest.
 const PARTNERS: usize = 16;
 /// Vertices that become one, at most.
