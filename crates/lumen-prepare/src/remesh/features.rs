@@ -44,6 +44,8 @@ pub(super) struct Curves {
     /// The curve of each segment.
     of_segment: Vec<u32>,
     index: SurfaceIndex,
+    /// Whether creases were dropped that have no room beside others.
+    pub(super) were_crowded: bool,
 }
 
 impl Curves {
@@ -68,9 +70,11 @@ fn normal(net: &Net, t: u32) -> Option<DVec3> {
     (length > THIN * longest).then(|| doubled / length)
 }
 
-/// Finds the feature curves of `net`, whose sizes are known, and notes them in it.
-pub(super) fn find(net: &mut Net, walk: &Walk) -> Curves {
+/// Finds the feature curves of `net`, whose sizes are known, and notes them in it; creases that have no room beside others
+/// too if it `keeps_crowded` ones.
+pub(super) fn find(net: &mut Net, walk: &Walk, keeps_crowded: bool) -> Curves {
     let mut is_crease = mark(net, walk);
+    let mut were_crowded = false;
     let kinds = net.kind.clone();
     loop {
         drop_short_pieces(net, &mut is_crease);
@@ -84,9 +88,10 @@ pub(super) fn find(net: &mut Net, walk: &Walk) -> Curves {
         if !drop_weak(net, &curves, &counts, &mut is_crease) {
             let triangles: Vec<[u32; 3]> = curves.segments.iter().map(|&[a, b]| [a, b, b]).collect();
             curves.index = SurfaceIndex::new(&net.at, &triangles);
-            if !drop_crowded(net, &curves, &mut is_crease) {
-                return curves;
+            if keeps_crowded || !drop_crowded(net, &curves, &mut is_crease) {
+                return Curves { were_crowded, ..curves };
             }
+            were_crowded = true;
         }
         net.kind.clone_from(&kinds);
     }

@@ -215,6 +215,23 @@ pub async fn remesh_in_slices(
     sizing: &Sizing,
     yielder: &Yielder,
 ) -> Result<Remeshed, RemeshError> {
+    let (found, were_crowded) = remeshed(surface, radii, sizing, false, &yielder.part(0.0..0.9)).await?;
+    if found.crossing.is_empty() || !were_crowded {
+        return Ok(found);
+    }
+    // Walls so near that creases between them have no room may cross without them.
+    let (other, _) = remeshed(surface, radii, sizing, true, &yielder.part(0.9..1.0)).await?;
+    Ok(if other.crossing.len() < found.crossing.len() { other } else { found })
+}
+
+/// The surface, remeshed, and whether creases without room were dropped, which it does unless it `keeps_crowded` ones.
+async fn remeshed(
+    surface: &Patched,
+    radii: &[f32],
+    sizing: &Sizing,
+    keeps_crowded: bool,
+    yielder: &Yielder,
+) -> Result<(Remeshed, bool), RemeshError> {
     sizing.check()?;
     let kept = check(surface, radii)?;
     let mesh = &surface.mesh;
@@ -228,7 +245,7 @@ pub async fn remesh_in_slices(
     let triangles: Vec<[u32; 3]> = net.origin.as_chunks::<3>().0.to_vec();
     let index = SurfaceIndex::new(&net.at, &triangles);
     let walk = Walk::on(&net, triangles.len(), |t| t);
-    let curves = features::find(&mut net, &walk);
+    let curves = features::find(&mut net, &walk, keeps_crowded);
     if let Some(deviation) = sizing.max_deviation_mm {
         sizing::bound_deviation(&net, deviation, sizing, &mut lengths);
     }
@@ -262,7 +279,8 @@ pub async fn remesh_in_slices(
         crossing = new.clashing();
     }
     yielder.rest(0.9).await;
-    Ok(finished(surface, &first, &net, &original, &kept, new, crossing))
+    let found = finished(surface, &first, &net, &original, &kept, new, crossing);
+    Ok((found, original.curves.were_crowded))
 }
 
 /// The triangles that have three vertices.
