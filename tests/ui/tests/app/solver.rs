@@ -157,6 +157,8 @@ fn another_surface_forgets_what_was_made_and_a_cancel_ends_the_work() {
     press(&mut harness, Role::Button, "Make ready");
     assert!(preparation(&harness).is_busy());
     harness.key_press(egui::Key::Escape);
+    // The key is heard in the next step: before the work goes on.
+    harness.run_steps(2);
     memory.borrow_mut().runs = true;
     settle(&mut harness);
     assert!(!preparation(&harness).is_busy() && preparation(&harness).made.is_none());
