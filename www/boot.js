@@ -168,7 +168,11 @@ async function bring(late, module) {
 
 function firstPicture() {
   return new Promise((resolve) => {
-    const observer = new MutationObserver(() => root.dataset.state === "ready" && resolve());
+    const observer = new MutationObserver(() => {
+      if (root.dataset.state !== "ready") return;
+      observer.disconnect();
+      resolve();
+    });
     observer.observe(root, { attributeFilter: ["data-state"] });
   });
 }

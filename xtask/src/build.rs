@@ -1,8 +1,9 @@
 //! `cargo xtask build`: the browser app as a folder of static files.
 //!
 //! There are two programs: the page's, which a first visit waits for, and that of scans, which is fetched in the background.
-//! wasm-bindgen makes the glue between module and page, wasm-opt makes the module smaller and terser the glue, the files
-//! of `www` are put beside them and the page is stamped (`page`). `trunk build` lays out the same folder for those who have Trunk,
+//! wasm-bindgen makes the glue between module and page, what the first picture does without becomes a module of its own
+//! (`split`), wasm-opt makes the modules smaller and terser the glue, the files of `www` are put beside them and the page is
+//! stamped (`page`). `trunk build` lays out the same folder for those who have Trunk,
 //! less wasm-opt and the stamp; here it would be minutes of compiling for a copy. The build fails if a first visit would
 //! have to download more than 3.2 MB, gzip-compressed, before the app starts.
 
@@ -26,9 +27,6 @@ const PROGRAMS: [&str; 2] = ["lumen-web", "lumen-scan"];
 
 /// The half of the page's module that its first picture does without.
 const LATE: &str = "lumen-web_late.wasm";
-
-/// What a page computes seldom and not for a frame is made for a short download: 17 kB of it.
-const SMALL: &str = "profile.release.package.lumen-prepare.opt-level='z'";
 
 /// The languages whose messages are no part of the program, and what their files end in.
 pub(crate) const LANGUAGES: [&str; 2] = ["de", "fr"];
@@ -88,7 +86,7 @@ pub(crate) fn build_beside(others: &[&str]) -> Result<PathBuf> {
 
 /// Compiles programs for the browser.
 pub(crate) fn compile(programs: &[&str]) -> Result<()> {
-    let options = ["--quiet", "--release", "--target=wasm32-unknown-unknown", "--config", SMALL];
+    let options = ["--quiet", "--release", "--target=wasm32-unknown-unknown"];
     let programs = programs.iter().flat_map(|program| ["--package", program]);
     run(cargo().arg("build").args(options).args(programs))
 }

@@ -16,15 +16,16 @@ const SLIVER: f64 = 1e-3;
 /// Below this times its longest edge squared a triangle has no face to speak of.
 const NO_FACE: f64 = 1e-10;
 
-/// Where on a triangle the closest point lies.
+/// Where on a triangle the closest point lies: at `a + v (b - a) + w (c - a)`. On a side or at a corner `v` is 0, `w` is 0, or
+/// `v` is `1 - w`, to the bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangleProjection {
     /// Squared distance in mm2.
     pub squared: f64,
     /// Barycentric coordinate of the second corner.
-    pub(super) v: f64,
+    pub v: f64,
     /// Barycentric coordinate of the third corner.
-    pub(super) w: f64,
+    pub w: f64,
 }
 
 impl TriangleProjection {

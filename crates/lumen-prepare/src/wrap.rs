@@ -35,7 +35,7 @@ use lumen_mesh::mending::split::split;
 use lumen_mesh::mending::weld::weld_in_slices;
 use lumen_mesh::task::Yielder;
 use lumen_mesh::winding::make_consistent;
-use lumen_mesh::{SurfaceIndex, Topology, TriMesh, Vec3, boundary_loops, components, reach, triangle_area};
+use lumen_mesh::{SurfaceIndex, Topology, TriMesh, Vec3, boundary_loops, components, reach, surface_area};
 use lumen_volume::MarchingCubes;
 
 use self::fit::fit;
@@ -85,8 +85,7 @@ impl Lid {
 /// they `are_cut` after, else they stay closed.
 ///
 /// # Errors
-/// [`PrepareError::Wrap`], where that takes too many points or triangles; [`PrepareError::WrapCoarse`];
-/// [`PrepareError::Empty`].
+/// [`PrepareError::Wrap`], where that takes too many points or triangles; [`PrepareError::WrapCoarse`].
 pub async fn wrap(
     mesh: &TriMesh,
     tolerance_mm: f64,
@@ -105,7 +104,7 @@ pub async fn wrap(
     let least_step = least_step(extent);
     let too_fine = |least_mm: f64| PrepareError::Wrap { tolerance_mm, least_mm: rounded_up(least_mm) };
     // Marching cubes make two triangles for each square of the grid where the surface is level, and more where it is not.
-    let by_area = (3.5 * area(mesh) / MOST_TRIANGLES as f64).sqrt() / STEP;
+    let by_area = (3.5 * surface_area(mesh) / MOST_TRIANGLES as f64).sqrt() / STEP;
     if step < least_step {
         return Err(too_fine(by_area.max(least_step / STEP)));
     }
@@ -142,11 +141,6 @@ pub async fn wrap(
         nearest.is_some_and(|nearest| ragged.iter().any(|(lid, _)| lid.triangles.contains(&nearest.triangle)))
     };
     Ok(without(&mesh, is_of_lid))
-}
-
-/// The area of a surface, in mm2.
-fn area(mesh: &TriMesh) -> f64 {
-    (0..mesh.triangles.len()).map(|t| triangle_area(mesh.corners(t))).sum()
 }
 
 /// The next number of two digits.

@@ -5,6 +5,7 @@
 //! where another wall is nearer. Its distance is never less than that of the nearest point of all.
 
 use glam::{DVec3, Vec3};
+use lumen_mesh::{TriangleProjection, closest_point_on_triangle};
 
 use super::net::{NONE, Net, next, prev};
 
@@ -133,46 +134,21 @@ impl Walk {
         best
     }
 
-    /// Ericson, "Real-time collision detection" (2005), section 5.1.5, in f64 on the exact differences of coordinates.
     #[inline]
     fn project(&self, triangle: u32, p: DVec3) -> Nearest {
-        let [a, b, c] = self.faces[triangle as usize].corners.map(Vec3::as_dvec3);
-        let (ap, ab, ac) = (p - a, b - a, c - a);
+        let TriangleProjection { squared, v, w } = closest_point_on_triangle(p, self.faces[triangle as usize].corners);
         let h = 3 * triangle;
-        let at = |part: Part, v: f64, w: f64| {
-            let squared = (ap - ab * v - ac * w).length_squared();
-            Nearest { triangle, part, v, w, squared }
+        // What is not inside has one of these weights to the bit.
+        let part = match (v, w) {
+            (0.0, 0.0) => Part::Corner(h),
+            (1.0, 0.0) => Part::Corner(h + 1),
+            (0.0, 1.0) => Part::Corner(h + 2),
+            (_, 0.0) => Part::Side(h),
+            (0.0, _) => Part::Side(h + 2),
+            _ if v == 1.0 - w => Part::Side(h + 1),
+            _ => Part::Face,
         };
-        let (d1, d2) = (ab.dot(ap), ac.dot(ap));
-        if d1 <= 0.0 && d2 <= 0.0 {
-            return at(Part::Corner(h), 0.0, 0.0);
-        }
-        let bp = ap - ab;
-        let (d3, d4) = (ab.dot(bp), ac.dot(bp));
-        if d3 >= 0.0 && d4 <= d3 {
-            return at(Part::Corner(h + 1), 1.0, 0.0);
-        }
-        let vc = d1 * d4 - d3 * d2;
-        if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-            return at(Part::Side(h), d1 / (d1 - d3), 0.0);
-        }
-        let cp = ap - ac;
-        let (d5, d6) = (ab.dot(cp), ac.dot(cp));
-        if d6 >= 0.0 && d5 <= d6 {
-            return at(Part::Corner(h + 2), 0.0, 1.0);
-        }
-        let vb = d5 * d2 - d1 * d6;
-        if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-            return at(Part::Side(h + 2), 0.0, d2 / (d2 - d6));
-        }
-        let va = d3 * d6 - d5 * d4;
-        let (to_c, to_b) = (d4 - d3, d5 - d6);
-        if va <= 0.0 && to_c >= 0.0 && to_b >= 0.0 {
-            let w = to_c / (to_c + to_b);
-            return at(Part::Side(h + 1), 1.0 - w, w);
-        }
-        let scale = 1.0 / (va + vb + vc);
-        at(Part::Face, vb * scale, vc * scale)
+        Nearest { triangle, part, v, w, squared }
     }
 }
 
