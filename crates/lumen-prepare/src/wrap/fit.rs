@@ -63,7 +63,8 @@ pub(super) async fn fit(
     for round in 0..ROUNDS {
         let mut wrong = clashing(mesh);
         yielder.rest(0.6 + 0.03 * round as f32).await;
-        if round == 0 {
+        // Distances take longest: they are asked for once more where nothing else is left.
+        if round == 0 || wrong.is_empty() {
             wrong.extend(far(mesh, index, tolerance, yielder).await);
         }
         if wrong.is_empty() {
