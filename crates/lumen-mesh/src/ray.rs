@@ -11,10 +11,19 @@ impl SurfaceIndex {
     /// How often the surface goes around `p`, as counted along a ray: 1 inside of a closed surface, 0 outside. An open
     /// end that the ray leaves by is a miscount.
     pub fn winding(&self, p: Vec3, direction: Vec3) -> i32 {
-        let (p, direction) = (p.as_dvec3(), direction.as_dvec3());
+        self.outward_less_inward(p.as_dvec3(), direction.as_dvec3(), f64::INFINITY)
+    }
+
+    /// How often the surface is passed outwards, less inwards, on the straight way between two points.
+    pub fn passes(&self, from: Vec3, to: Vec3) -> i32 {
+        let (p, way) = (from.as_dvec3(), to.as_dvec3() - from.as_dvec3());
+        way.try_normalize().map_or(0, |direction| self.outward_less_inward(p, direction, way.length()))
+    }
+
+    fn outward_less_inward(&self, p: DVec3, direction: DVec3, length: f64) -> i32 {
         let mut hits = Vec::new();
-        self.along(p, direction, f64::INFINITY, |leaf, _| {
-            if let Some(hit) = Hit::of(p, direction, leaf.corners) {
+        self.along(p, direction, length, |leaf, _| {
+            if let Some(hit) = Hit::of(p, direction, leaf.corners).filter(|hit| hit.depth <= length) {
                 hits.push((leaf.triangle, if hit.is_outward { 1 } else { -1 }));
             }
         });
@@ -22,19 +31,6 @@ impl SurfaceIndex {
         hits.sort_unstable();
         hits.dedup();
         hits.into_iter().map(|(_, outward)| outward).sum()
-    }
-
-    /// How often the surface is passed outwards, less inwards, on the straight way between two points.
-    pub fn passes(&self, from: Vec3, to: Vec3) -> i32 {
-        let (p, way) = (from.as_dvec3(), to.as_dvec3() - from.as_dvec3());
-        let Some(direction) = way.try_normalize() else { return 0 };
-        let length = way.length();
-        let mut sum = 0;
-        self.along(p, direction, length, |leaf, _| {
-            let hit = Hit::of(p, direction, leaf.corners).filter(|hit| hit.depth <= length);
-            sum += hit.map_or(0, |hit| if hit.is_outward { 1 } else { -1 });
-        });
-        sum
     }
 
     /// How far it is from `p` along `direction` (of length 1) to where the surface is left, in mm.
@@ -150,6 +146,10 @@ impl Hit {
 
 #[cfg(test)]
 mod tests {
+    use std::f32::consts::TAU;
+
+    use glam::Vec2;
+
     use super::*;
     use crate::shapes::icosphere;
 
@@ -165,6 +165,21 @@ mod tests {
         let direction = Vec3::new(0.3, 0.5, 0.81).normalize();
         for (offset, count) in [(0.0, 1), (4.5, 2), (7.0, 1), (8.5, 0), (-5.0, 1), (-7.0, 0)] {
             assert_eq!(index.winding(centre + Vec3::X * offset, direction), count, "{offset}");
+        }
+    }
+
+    #[test]
+    fn a_way_passes_a_thin_triangle_once() {
+        // A fan of a thousand, each 10 mm long and at most 0.06 mm wide, in z = 0, looking up.
+        let rim = (0..1000u32).map(|i| (Vec2::from_angle(TAU * i as f32 / 1000.0) * 10.0).extend(0.0));
+        let positions: Vec<Vec3> = std::iter::once(Vec3::ZERO).chain(rim).collect();
+        let triangles: Vec<[u32; 3]> = (0..1000).map(|i| [0, 1 + i, 1 + (i + 1) % 1000]).collect();
+        let index = SurfaceIndex::new(&positions, &triangles);
+        for &[a, b, c] in &triangles {
+            let middle = (positions[a as usize] + positions[b as usize] + positions[c as usize]) / 3.0;
+            assert_eq!(index.passes(middle - Vec3::Z, middle + Vec3::Z), 1);
+            assert_eq!(index.passes(middle + Vec3::Z, middle - Vec3::Z), -1);
+            assert_eq!(index.passes(middle + Vec3::Z, middle + Vec3::Z * 2.0), 0);
         }
     }
 }
