@@ -7,10 +7,10 @@ use anyhow::{Context, Result};
 use clap::Args;
 
 use super::misuse::misuse;
+use super::places;
 use super::places::write_whole;
 use super::rows::row;
-use super::{places, source};
-use crate::io::Unit;
+use super::source::{self, UNIT_HELP, UnitOption};
 use crate::pipeline::report::DISCLAIMER;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::{Keep, Settings};
@@ -25,9 +25,8 @@ pub struct Centreline {
     /// Where to write: .vtp, a line a branch, or .csv, a row a station
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// The unit of the numbers in the file: mm, cm or m
-    #[arg(long, value_name = "UNIT")]
-    unit: Option<Unit>,
+    #[arg(long, value_name = "UNIT", help = UNIT_HELP)]
+    unit: Option<UnitOption>,
     /// Look into every connected piece, not only the largest
     #[arg(long)]
     keep_all_components: bool,

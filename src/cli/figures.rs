@@ -9,10 +9,9 @@ use clap::Args;
 use super::places::write_whole;
 use super::rows::row;
 use super::running::advance;
-use super::source;
+use super::source::{self, UNIT_HELP, UnitOption};
 use crate::app::compare::figure::{Figure, Studio};
 use crate::app::compare::{Arrangement, Made};
-use crate::io::Unit;
 use crate::phantom::Sample;
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::paper;
@@ -33,9 +32,8 @@ pub struct Figures {
     /// Width of a figure in pixels, 600 to 8000; text and lines grow with it
     #[arg(long, value_name = "PIXELS", default_value_t = 2400, value_parser = clap::value_parser!(u32).range(600..=8000))]
     width: u32,
-    /// The unit of the numbers in the file: mm, cm or m
-    #[arg(long, value_name = "UNIT")]
-    unit: Option<Unit>,
+    #[arg(long, value_name = "UNIT", help = UNIT_HELP)]
+    unit: Option<UnitOption>,
 }
 
 impl Figures {

@@ -10,7 +10,7 @@ use super::rows::{array_rows, row, shape_rows};
 use super::scan;
 use super::scan_options::ScanOptions;
 use super::source;
-use super::source::UnitOption;
+use super::source::{UNIT_HELP, UnitOption};
 use crate::io::{ImportReport, Imported};
 use crate::mesh::mending::{FaultCounts, Faults};
 use crate::pipeline::shape::{Shape, shape};
@@ -25,9 +25,7 @@ pub struct Inspect {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// The unit of the numbers in the file: mm, cm or m; auto takes the one in which the size would be that of vessels,
-    /// where it is not and only one would do
-    #[arg(long, value_name = "UNIT")]
+    #[arg(long, value_name = "UNIT", help = UNIT_HELP)]
     unit: Option<UnitOption>,
 }
 

@@ -11,7 +11,7 @@ use super::options::MendingOptions;
 use super::places::{output_format, write_whole};
 use super::rows::row;
 use super::running::worked;
-use super::source::{self, UnitOption};
+use super::source::{self, UNIT_HELP, UnitOption};
 use super::{interrupt, places};
 use crate::io::{self, Imported, Output};
 use crate::mesh::mending::{FaultCounts, Faults, MendReport, Mended, mend};
@@ -26,9 +26,7 @@ pub struct Mend {
     output: PathBuf,
     #[command(flatten)]
     mending: MendingOptions,
-    /// The unit of the numbers in the file: mm, cm or m; auto takes the one in which the size would be that of vessels,
-    /// where it is not and only one would do
-    #[arg(long, value_name = "UNIT")]
+    #[arg(long, value_name = "UNIT", help = UNIT_HELP)]
     unit: Option<UnitOption>,
     /// Write all numbers to this file
     #[arg(long, value_name = "FILE.json")]
@@ -55,7 +53,7 @@ impl Mend {
         let report = self.report.iter().map(|path| ("the report".to_owned(), &**path));
         places::check([Path::new(&self.file)], [("the surface".to_owned(), &*self.output)].into_iter().chain(report))?;
         interrupt::listen()?;
-        let Imported { mesh, arrays, report } = source::read_with(&self.file, self.unit, &Default::default())?;
+        let Imported { mesh, arrays, report } = source::read(&self.file, self.unit)?;
         let faults_before = Faults::all(&mesh).counts();
         let Mended { mesh, arrays, report: mending } =
             worked("Mending", move |yielder| async move { mend(mesh, arrays, asked, &yielder).await })?;

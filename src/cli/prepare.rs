@@ -11,7 +11,7 @@ use super::misuse::misuse;
 use super::places::write_whole;
 use super::rows::row;
 use super::running::worked;
-use super::source::{self, UnitOption};
+use super::source::{self, UNIT_HELP, UnitOption};
 use super::{interrupt, places};
 use crate::io::Imported;
 use crate::pipeline::carry::carry_over;
@@ -72,9 +72,7 @@ pub struct Prepare {
     /// What to write: stl, msh, inp, vtp, simvascular; a JSON of the patches comes with it
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format, default_value = "vtp,stl")]
     format: Vec<SolverFormat>,
-    /// The unit of the numbers in the file: mm, cm or m; auto takes the one in which the size would be that of vessels,
-    /// where it is not and only one would do
-    #[arg(long, value_name = "UNIT")]
+    #[arg(long, value_name = "UNIT", help = UNIT_HELP)]
     unit: Option<UnitOption>,
 }
 
@@ -159,7 +157,7 @@ impl Prepare {
             single.map(|format| format.extension()).chain(["json"]).map(|ending| format!("{stem}.{ending}")).collect();
         self.check(names.iter().map(String::as_str))?;
         interrupt::listen()?;
-        let Imported { mesh, arrays, .. } = source::read_with(&self.file, self.unit, &Default::default())?;
+        let Imported { mesh, arrays, .. } = source::read(&self.file, self.unit)?;
         let before = mesh.triangles.len();
         let (surface, entered) = (Arc::new(mesh), arrays);
         let mesh = Arc::clone(&surface);

@@ -8,7 +8,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::misuse::misuse;
 use super::options::{Given, Reduction};
-use super::source::UnitOption;
+use super::source::{UNIT_HELP, UnitOption};
 use crate::pipeline::settings::{Keep, Preset};
 use crate::sharing::{self, SharedSettings};
 
@@ -24,9 +24,7 @@ pub(super) struct SettingsOptions {
     smoothing: Option<Preset>,
     #[command(flatten)]
     given: Given,
-    /// The unit of the numbers in the file: mm, cm or m; auto takes the one in which the size would be that of vessels,
-    /// where it is not and only one would do
-    #[arg(long, value_name = "UNIT")]
+    #[arg(long, value_name = "UNIT", help = UNIT_HELP)]
     unit: Option<UnitOption>,
     /// Keep every connected piece, not only the largest
     #[arg(long, conflicts_with = "keep")]

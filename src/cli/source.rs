@@ -14,6 +14,10 @@ use crate::phantom::{self, Sample};
 use crate::sharing::Digest;
 use crate::task::{Budget, Progress, Running};
 
+/// What an option for the unit says of itself.
+pub(super) const UNIT_HELP: &str = "The unit of the numbers in the file: mm, cm or m; auto takes the one in which the size would be \
+that of vessels, where it is not and only one would do";
+
 /// The unit of a file's numbers, as it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum UnitOption {
@@ -42,8 +46,8 @@ impl FromStr for UnitOption {
 
 /// Reads the file `name`, or makes the sample that `sample:...` names; of a mask, the surface of all that is not 0. Warnings
 /// go to standard error.
-pub(super) fn read(name: &str, unit: Option<Unit>) -> Result<Imported> {
-    read_with(name, unit.map(UnitOption::Given), &ScanOptions::default())
+pub(super) fn read(name: &str, unit: Option<UnitOption>) -> Result<Imported> {
+    read_with(name, unit, &ScanOptions::default())
 }
 
 /// [`read`], with what of a scan or a mask is the vessel.

@@ -10,9 +10,9 @@ use super::options::percent;
 use super::places::write_whole;
 use super::rows::row;
 use super::running::advance;
+use super::source::{UNIT_HELP, UnitOption};
 use super::trial::{SMOOTHING, settings, surface, wire};
 use super::{interrupt, places};
-use crate::io::Unit;
 use crate::pipeline::report::DISCLAIMER;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Target;
@@ -46,9 +46,8 @@ pub struct Sweep {
     /// Write a plot here
     #[arg(long, value_name = "OUT.svg")]
     plot: Option<PathBuf>,
-    /// The unit of the numbers in the file: mm, cm or m
-    #[arg(long, value_name = "UNIT")]
-    unit: Option<Unit>,
+    #[arg(long, value_name = "UNIT", help = UNIT_HELP)]
+    unit: Option<UnitOption>,
 }
 
 impl Sweep {

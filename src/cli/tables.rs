@@ -9,11 +9,11 @@ use std::sync::Arc;
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
+use super::places;
 use super::places::write_whole;
 use super::running::advance;
 use super::sheet::{Entry, Item, Sheet, Table};
-use super::{places, source};
-use crate::io::Unit;
+use super::source::{self, UNIT_HELP, UnitOption};
 use crate::pipeline::deviation::{Deviation, REPORT_SAMPLES};
 use crate::pipeline::paper;
 use crate::pipeline::report::Report;
@@ -36,9 +36,8 @@ pub struct Tables {
     /// Write to this file instead of standard output
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
-    /// The unit of the numbers in the file: mm, cm or m
-    #[arg(long, value_name = "UNIT")]
-    unit: Option<Unit>,
+    #[arg(long, value_name = "UNIT", help = UNIT_HELP)]
+    unit: Option<UnitOption>,
 }
 
 /// How tables are written.

@@ -8,12 +8,12 @@ use clap::Args;
 
 use super::misuse::misuse;
 use super::options::percent;
+use super::places;
 use super::places::write_whole;
 use super::rows::row;
 use super::running::advance;
 use super::serve::serve;
-use super::{places, source};
-use crate::io::Unit;
+use super::source::{self, UNIT_HELP, UnitOption};
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::pipeline::run::Pipeline;
@@ -72,9 +72,8 @@ pub struct Trial {
     /// Write the summary here
     #[arg(long, value_name = "OUT.json")]
     json: Option<PathBuf>,
-    /// The unit of the numbers in the file: mm, cm or m
-    #[arg(long, value_name = "UNIT")]
-    unit: Option<Unit>,
+    #[arg(long, value_name = "UNIT", help = UNIT_HELP)]
+    unit: Option<UnitOption>,
     /// Let another program hold the wire, by lines of JSON on standard input and output
     #[arg(long, conflicts_with_all = ["log", "json"])]
     serve: bool,
@@ -107,7 +106,7 @@ fn numbers<const N: usize>(text: &str) -> Option<[f32; N]> {
 pub(super) fn surface(
     file: &str,
     triangles: Option<u32>,
-    unit: Option<Unit>,
+    unit: Option<UnitOption>,
 ) -> Result<(Arc<TriMesh>, Option<Sample>)> {
     let sample = file.strip_prefix("sample:").map(str::parse).transpose()?;
     let imported = match (sample, triangles) {

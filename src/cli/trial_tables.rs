@@ -7,8 +7,8 @@ use anyhow::{Context, Result};
 
 use super::running::advance;
 use super::sheet::{Entry, Item, Sheet, Table};
+use super::source::UnitOption;
 use super::trial::{SMOOTHING, settings, surface, trial};
-use crate::io::Unit;
 use crate::pipeline::paper::{TABLE_III, TABLE_IV, TrialRow};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Target;
@@ -17,7 +17,7 @@ use crate::trial::summary::Summary;
 
 /// The tables of a surface: Table III for the aorta, Table IV for the whole tree or a file. For the default, the aorta,
 /// both are made.
-pub(super) fn sheet(file: &str, unit: Option<Unit>) -> Result<Sheet> {
+pub(super) fn sheet(file: &str, unit: Option<UnitOption>) -> Result<Sheet> {
     let mut notes = vec![
         format!(
             "Autopilot, steps of 2 ms, seed 0; smoothed with pass band {} and {} iterations, which leave vessels of \
@@ -37,7 +37,7 @@ pub(super) fn sheet(file: &str, unit: Option<Unit>) -> Result<Sheet> {
     Ok(Sheet { notes, tables })
 }
 
-fn table(number: &'static str, file: &str, unit: Option<Unit>, notes: &mut Vec<String>) -> Result<Table> {
+fn table(number: &'static str, file: &str, unit: Option<UnitOption>, notes: &mut Vec<String>) -> Result<Table> {
     let (rates, printed): (&[u32], &[TrialRow]) =
         if number == "III" { (&[10, 50, 75, 90, 99], &TABLE_III) } else { (&[0, 90, 95, 99], &TABLE_IV) };
     let (opened, sample) = surface(file, None, unit)?;
