@@ -436,6 +436,15 @@ fn the_unit_is_found_by_the_size_where_only_one_would_do() {
 }
 
 #[test]
+fn every_command_that_takes_a_unit_finds_it() {
+    for command in ["centreline", "tables", "trial", "sweep"] {
+        let refused = lumen(&[command, "is-not-there.stl", "--unit", "auto"]);
+        let error = String::from_utf8_lossy(&refused.stderr);
+        assert!(error.contains("cannot read is-not-there.stl"), "{command}: {error}");
+    }
+}
+
+#[test]
 fn a_glb_has_coarser_levels_where_they_are_asked_for_and_other_formats_refuse_them() {
     let folder = Folder::new("levels");
     let [plain, levels, stl] = ["plain.glb", "levels.glb", "levels.stl"].map(|name| folder.file(name));

@@ -97,16 +97,16 @@ impl Course {
         let is_inside = |entry: &Entry| tree.is_inside(Vec3::from(entry.at));
         let found = tree.entries().into_iter().filter(|(_, entry)| is_inside(entry));
         let own = task.iter().map(|(entry, _)| (PlaceName::Own, *entry));
-        let entries: Vec<_> = own.chain(found).collect();
+        let entries: Vec<_> = own.chain(found).chain(tree.ostia()).collect();
+        let is_open = setup.entry.is_none() && setup.target.is_none() && task.is_none();
         let entry = match (setup.entry, &task) {
             (Some(entry), _) => Some(entry),
             (None, Some((entry, _))) => Some(*entry),
             (None, None) if setup.target.is_some() => entries.first().map(|(_, entry)| *entry),
             (None, None) => proposed_entry(&tree, &entries, (!setup.proposes_wire).then_some(&setup.wire)),
         };
-        let entry = entry.ok_or(TrialError::NoEntry)?;
-        setup.entry = Some(entry);
-        let from = Vec3::from(entry.at);
+        let mut entry = entry.ok_or(TrialError::NoEntry)?;
+        let mut from = Vec3::from(entry.at);
         let mut best = None;
         let proposes_wire = std::mem::take(&mut setup.proposes_wire);
         if proposes_wire {
@@ -126,8 +126,15 @@ impl Course {
                 best.or_else(|| Some(targets.first()?.1)).ok_or(TrialError::NoTarget)?
             }
         };
-        setup.target = Some(target);
-        let route = tree.route(Vec3::from(entry.at), Vec3::from(target))?;
+        // A coronary artery is not reached by a wire alone: a guide catheter leads it into the ostium.
+        if is_open && let Some((_, guided)) = tree.ostium_on_way(from, Vec3::from(target)) {
+            (entry, from) = (guided, Vec3::from(guided.at));
+            if proposes_wire {
+                setup.wire = proposed(&tree, from, Some(Vec3::from(target))).0;
+            }
+        }
+        (setup.entry, setup.target) = (Some(entry), Some(target));
+        let route = tree.route(from, Vec3::from(target))?;
         route.clearance(setup.wire.diameter_mm)?;
         let forks = route.forks(&tree);
         let mut wires = suiting(&route, &setup.wire);

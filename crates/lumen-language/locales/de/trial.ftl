@@ -156,6 +156,7 @@ trial-seed = Startwert
 trial-seed-help = Variiert Einführstelle, Drehung und Reibung ein wenig; 0 variiert nichts. Wirkt nach einem Neustart
 trial-own = aus dem Beispiel
 trial-entry-wide = { $branch }, { $width } mm
+trial-entry-ostium = Ostium von { $branch }, { $width } mm
 trial-target-room = { $branch }, so weit der Platz reicht
 trial-target-open = { $branch }, offenes Ende
 trial-target-closed = { $branch }, geschlossenes Ende

@@ -156,6 +156,7 @@ trial-seed = Graine
 trial-seed-help = Fait varier un peu l'entrée, la rotation et le frottement ; 0 ne change rien. Prend effet en relançant
 trial-own = celle de l'exemple
 trial-entry-wide = { $branch }, { $width } mm
+trial-entry-ostium = ostium de { $branch }, { $width } mm
 trial-target-room = { $branch }, aussi loin que possible
 trial-target-open = { $branch }, extrémité ouverte
 trial-target-closed = { $branch }, extrémité fermée

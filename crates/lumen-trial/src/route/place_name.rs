@@ -39,6 +39,13 @@ pub enum PlaceName {
         /// Length of the way there, in mm.
         away_mm: f64,
     },
+    /// Where a guide catheter lies, in the ostium of an artery.
+    Ostium {
+        /// As for an entry.
+        branch: u32,
+        /// Of the lumen there, in mm.
+        diameter_mm: f64,
+    },
 }
 
 impl PlaceName {
@@ -48,6 +55,9 @@ impl PlaceName {
             Self::Own => PlaceLabel::Own,
             Self::Entry { branch, diameter_mm } => {
                 PlaceLabel::Entry { branch: BranchName::of_place(branch), width: diameter_mm }
+            }
+            Self::Ostium { branch, diameter_mm } => {
+                PlaceLabel::Ostium { branch: BranchName::of_place(branch), width: diameter_mm }
             }
             Self::Target { branch, end, diameter_mm, away_mm } => {
                 let branch = BranchName::of_place(branch);
@@ -75,6 +85,13 @@ messages! {
             /// Diameter of the lumen there, in mm.
             width: f64 [1],
         } => "{branch}, {width:.1} mm",
+        /// Where a guide catheter lies.
+        "trial-entry-ostium" Ostium {
+            /// The artery.
+            branch: BranchName,
+            /// Diameter of the lumen there, in mm.
+            width: f64 [1],
+        } => "ostium of {branch}, {width:.1} mm",
         /// Where it could go.
         "trial-target-away" Target {
             /// The end.

@@ -22,6 +22,9 @@ const THREAD: f64 = 0.03;
 
 /// A vessel of this diameter in mm is an aorta; a common iliac artery has 10, a carotid 7, a coronary artery 3 to 5.
 const AORTA: f64 = 12.0;
+/// An artery of at most this diameter in mm that leaves an aorta is entered in its ostium, by a guide catheter; that of a
+/// kidney has 6.
+const GUIDED: f64 = 5.0;
 /// From an iliac artery a wire turns into the aorta by no more degrees, from the arteries of bowels, kidneys and the neck by
 /// more.
 const ILIAC: f64 = 45.0;
@@ -88,6 +91,13 @@ pub trait Proposals {
     /// with its name.
     fn entries(&self) -> Vec<(PlaceName, Entry)>;
 
+    /// Places in the ostia of thin arteries that leave an aorta, as the coronary ones do: there a guide catheter lies, and
+    /// points along the artery. By the place of the artery in [`Tree::branches`].
+    fn ostia(&self) -> Vec<(PlaceName, Entry)>;
+
+    /// That of [`Self::ostia`] which lies on the way from `from` to `to`, nearest to `to`.
+    fn ostium_on_way(&self, from: Vec3, to: Vec3) -> Option<(PlaceName, Entry)>;
+
     /// Places where a wire from `from` could go, best first: far, and thin; last those to which the way turns back at a
     /// fork. Where the lumen on the way becomes thinner than `room_mm` across, the last place before that.
     fn targets(&self, from: Vec3, room_mm: f64) -> Vec<Target>;
@@ -105,6 +115,32 @@ impl Proposals for Tree {
         });
         let name = |tip: &Tip<'_>| PlaceName::Entry { branch: tip.branch.id, diameter_mm: 2.0 * tip.radius };
         tips.iter().map(|(_, tip)| (name(tip), tip.entry())).collect()
+    }
+
+    fn ostia(&self) -> Vec<(PlaceName, Entry)> {
+        let found = self.branches().iter().filter_map(|branch| {
+            let parent = &self.branches()[branch.parent? as usize];
+            let at = branch.arcs.partition_point(|&arc| arc < branch.arcs[branch.ostium] + INSIDE_MM);
+            let place = branch.points.get(at)?;
+            let entry = Entry {
+                at: place.at.as_vec3().to_array(),
+                direction: direction(&branch.points, at).as_vec3().to_array(),
+            };
+            let is_one = is_aorta(parent) && branch.ostium > 0 && 2.0 * place.radius <= GUIDED;
+            is_one.then_some((PlaceName::Ostium { branch: branch.id, diameter_mm: 2.0 * place.radius }, entry))
+        });
+        found.collect()
+    }
+
+    fn ostium_on_way(&self, from: Vec3, to: Vec3) -> Option<(PlaceName, Entry)> {
+        let [own, target] = [from, to].map(|p| self.locate(p.as_dvec3(), None).map(|located| located.branch));
+        let way = between(self, own?, target?);
+        let is_entered = |pair: &[u32], id: u32| pair[1] == id && self.branches()[pair[0] as usize].parent != Some(id);
+        self.ostia().into_iter().rfind(|(name, entry)| {
+            let PlaceName::Ostium { branch, .. } = *name else { return false };
+            let is_on_way = way.windows(2).any(|pair| is_entered(pair, branch));
+            is_on_way && f64::from(Vec3::from(entry.at).distance(to)) > NEAREST
+        })
     }
 
     fn targets(&self, from: Vec3, room_mm: f64) -> Vec<Target> {
@@ -174,13 +210,14 @@ fn usual_radius_of(branch: &Branch) -> f64 {
     usual_radius(pairs.map(|pair| (pair[1].radius, pair[0].at.distance(pair[1].at))).collect())
 }
 
+fn is_aorta(branch: &Branch) -> bool {
+    2.0 * usual_radius_of(branch) >= AORTA && branch.length_mm() >= AORTA
+}
+
 /// How a wire that enters at an end comes into an aorta; `None` where its tree has none.
 fn access(tree: &Tree, tip: &Tip<'_>) -> Option<Access> {
-    let is_aorta = |branch: &&Branch| {
-        let is_wide = 2.0 * usual_radius_of(branch) >= AORTA && branch.length_mm() >= AORTA;
-        branch.tree == tip.branch.tree && is_wide
-    };
-    let aortas: Vec<u32> = tree.branches().iter().filter(is_aorta).map(|branch| branch.id).collect();
+    let is_near = |branch: &&Branch| branch.tree == tip.branch.tree && is_aorta(branch);
+    let aortas: Vec<u32> = tree.branches().iter().filter(is_near).map(|branch| branch.id).collect();
     if aortas.is_empty() {
         return None;
     }

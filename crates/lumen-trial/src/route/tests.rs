@@ -1,8 +1,12 @@
 //! Trees and routes of surfaces whose centrelines are known.
 
+use std::sync::Arc;
+
 use glam::{DVec3, Vec3};
 
 use super::*;
+use crate::course::Course;
+use crate::setup::Setup;
 use lumen_mesh::shapes::{fork, in_capsule, isosurface, joined, tube};
 use lumen_vessel::{Branch, End, Tree};
 
@@ -246,6 +250,39 @@ fn an_aorta_is_entered_from_the_groin_and_other_vessels_where_they_are_wide() {
     // A quarter as large it is as wide as a coronary artery.
     assert_eq!(entered(0.25)[0], TOP);
     assert_eq!(entered(0.25)[3], SIDE);
+}
+
+#[test]
+fn a_thin_artery_that_leaves_an_aorta_is_entered_in_its_ostium() {
+    // 6 mm are a renal artery's; 4.8 mm, beside an aorta of 14, are a coronary one's.
+    assert_eq!(Tree::new(&aorta(1.0).0).unwrap().ostia(), []);
+    let (mesh, ends) = aorta(0.8);
+    let tree = Tree::new(&mesh).unwrap();
+    let [top, long, _, side] = ends.map(|end| (0.95 * end).as_vec3());
+    let found = tree.ostia();
+    let [(PlaceName::Ostium { diameter_mm, .. }, entry)] = found[..] else { panic!("{found:?}") };
+    near(diameter_mm, 4.8, 0.05);
+    let (at, way) = (Vec3::from(entry.at).as_dvec3(), Vec3::from(entry.direction).as_dvec3());
+    let (origin, along) = (DVec3::Z * 40.0, DVec3::new(0.0, 48.0, 16.0).normalize());
+    // The artery leaves the aorta 7.2 mm from its axis, 7.6 along its own, and 3 mm on is the guide's end.
+    let arc = (at - origin).dot(along);
+    assert!((at - origin - along * arc).length() < 0.5 && (9.0..13.0).contains(&arc), "{at} at {arc}");
+    assert!(way.dot(along) > 0.98, "{way}");
+    assert_eq!(tree.ostium_on_way(long, side), Some(found[0]));
+    assert_eq!(tree.ostium_on_way(top, side), Some(found[0]));
+    assert_eq!((tree.ostium_on_way(long, top), tree.ostium_on_way(side, top)), (None, None));
+    // It is proposed where nobody has said any, and what is asked for stays.
+    let mesh = Arc::new(mesh);
+    let task = |entry, target| {
+        let mut setup = Setup { proposes_wire: true, entry, target, ..Setup::default() };
+        let course = Course::new(&mesh, None, &mut setup).unwrap();
+        assert!(course.entries.iter().any(|(_, known)| *known == found[0].1));
+        (setup.entry.unwrap(), Vec3::from(setup.target.unwrap()))
+    };
+    let (entered, target) = task(None, None);
+    assert!(target.distance(ends[3].as_vec3()) < 8.0, "{target}");
+    assert_eq!(entered, found[0].1);
+    assert_ne!(task(None, Some(side.to_array())).0, found[0].1);
 }
 
 #[test]
