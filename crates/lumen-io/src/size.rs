@@ -16,6 +16,10 @@ use super::report::ImportReport;
 const USUAL_DIAGONAL_MM: RangeInclusive<f64> = 20.0..=2000.0;
 /// Mean calibres, in mm, that draw none: coronary arteries have some 3, an aneurysm of the aorta 40.
 const USUAL_CALIBRE_MM: RangeInclusive<f64> = 2.5..=45.0;
+/// Mean calibres, in mm, that draw none from a diagonal of so many mm on: a tree of the heart or the brain. An aorta in cm is
+/// less long.
+const FINE_CALIBRE_MM: RangeInclusive<f64> = 1.5..=2.5;
+const FINE_DIAGONAL_MM: RangeInclusive<f64> = 50.0..=300.0;
 /// A piece of small vessels, of the brain or the heart: its diagonal and its mean calibre in mm, and how many calibres the
 /// diagonal is at most. In cm it has the size of a piece of the aorta.
 const SMALL_DIAGONAL_MM: RangeInclusive<f64> = 3.0..=25.0;
@@ -158,6 +162,10 @@ impl ImportReport {
         let others = || Unit::ALL.into_iter().filter(|&other| other != self.unit).filter(is_as_long);
         let fitting: Vec<Unit> = others().filter(is_as_wide).collect();
         let list = |units: &[Unit], mm: f64| InUnits::new(units, |other| in_unit(mm, other));
+        let is_fine = FINE_DIAGONAL_MM.contains(&diagonal) && calibre.is_some_and(|mm| FINE_CALIBRE_MM.contains(&mm));
+        if is_fine {
+            return None;
+        }
         let is_usual = is_as_long(&self.unit) && is_as_wide(&self.unit);
         let is_small = SMALL_DIAGONAL_MM.contains(&diagonal)
             && calibre.is_none_or(|mm| SMALL_CALIBRE_MM.contains(&mm) && diagonal <= SMALL_CALIBRES * mm);

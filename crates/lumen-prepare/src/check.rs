@@ -165,6 +165,12 @@ impl Fate {
         !self.findings.iter().any(|finding| finding.fault.stops())
     }
 
+    /// Triangles that run into others.
+    pub fn crossing(&self) -> usize {
+        let count = |finding: &Finding| if let Fault::Crossing { count } = finding.fault { count } else { 0 };
+        self.findings.iter().map(count).sum()
+    }
+
     fn only(fault: Fault, places: Vec<[f64; 3]>) -> Self {
         Self { findings: vec![Finding { fault, places }], volume_mm3: None }
     }

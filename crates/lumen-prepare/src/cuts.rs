@@ -2,17 +2,24 @@
 
 use glam::DVec3;
 use lumen_mesh::task::Yielder;
-use lumen_mesh::{TriMesh, components};
-use lumen_vessel::Place;
+use lumen_mesh::{FlatCap, Topology, TriMesh, components, flat_caps};
+use lumen_vessel::{Branch, End, Place};
 use serde::{Deserialize, Serialize};
 
-use super::clip::{Clipped, clip};
-use super::ends::{EndPlane, EndPlanes, Length, check_surface, free_ends, skeleton};
+use super::clip::{ClipError, Clipped, clip};
+use super::ends::{EndError, EndPlane, EndPlanes, Length, check_surface, free_ends, skeleton};
 use super::notes::{Note, PrepareError, Reason};
 use super::prepare::{Plan, vessel, wrapped};
 
 /// A place is that of an end at most so many of its radii away.
 pub const NEAR: f64 = 8.0;
+/// An end with less than this part of the radius of one that it would go with is a thorn on it.
+const THORN: f64 = 0.3;
+/// A model has so many flat caps. Of its other ends those that are this much wider than a neck which is at most so many radii
+/// away are sacs: aneurysms.
+const MODEL: usize = 2;
+const WIDER_THAN_NECK: f64 = 1.5;
+const NECK: f64 = 5.0;
 
 /// Where vessels are cut.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -137,6 +144,7 @@ pub(crate) async fn planned(
     let planes = EndPlanes::new(mesh, &tree)?;
     yielder.rest(0.9).await;
     let free: Vec<_> = free_ends(&tree).collect();
+    let caps = flat_caps(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
     let ways: Vec<Vec<Place>> = free.iter().map(|&(branch, at_end)| planes.way(branch, at_end)).collect();
     let mut cut_of = vec![None; free.len()];
     let mut strays = Vec::new();
@@ -153,8 +161,10 @@ pub(crate) async fn planned(
     let mut ends = Vec::with_capacity(free.len());
     for (i, ((branch, at_end), way)) in free.into_iter().zip(ways).enumerate() {
         let at = cut_of[i].map_or(plan.clip, |cut: usize| plan.cuts[cut].at);
+        let is_sac = cut_of[i].is_none() && caps.len() >= MODEL && is_sac(branch, at_end, &caps);
         let found = match at {
             None => None,
+            Some(_) if is_sac => Some(Err(EndError::Sac { branch: branch.id })),
             Some(ClipAt::Round) => Some(planes.round(branch, at_end)),
             Some(ClipAt::Distance(distance)) => Some(planes.at(branch, at_end, distance)),
         };
@@ -166,6 +176,31 @@ pub(crate) async fn planned(
         yielder.rest(0.9 + 0.1 * i as f32 / cut_of.len() as f32).await;
     }
     Ok((ends, strays))
+}
+
+/// Whether a closed end without one of these caps is that of a sac: wider than its neck.
+fn is_sac(branch: &Branch, at_end: bool, caps: &[FlatCap]) -> bool {
+    if branch.ends[usize::from(at_end)] != End::Closed {
+        return false;
+    }
+    let mut inwards: Vec<usize> = (branch.ostium..branch.points.len()).collect();
+    if at_end {
+        inwards.reverse();
+    }
+    let Some(&first) = inwards.first() else { return false };
+    let mut widest = 0.0f64;
+    for i in inwards {
+        let Place { radius, .. } = branch.points[i];
+        widest = widest.max(radius);
+        if (branch.arcs[i] - branch.arcs[first]).abs() > NECK * widest {
+            return false;
+        }
+        if radius * WIDER_THAN_NECK < widest {
+            let at = branch.points[first].at;
+            return caps.iter().all(|cap| cap.centre.distance(at) > widest + cap.radius_mm());
+        }
+    }
+    false
 }
 
 fn place_of(plane: &EndPlane) -> [f32; 3] {
@@ -189,7 +224,12 @@ pub(crate) fn cut_at(mesh: TriMesh, planes: &[EndPlane], notes: &mut Vec<Note>) 
             (mesh, of.into_iter().map(|t| from[t as usize]).collect())
         })
     };
-    match error.end().filter(|&end| end < planes.len()) {
+    let failed = match error {
+        // What stands on an end of a vessel and is much thinner is no other end.
+        ClipError::OtherEnd { end, other } if planes[other].radius_mm < THORN * planes[end].radius_mm => Some(other),
+        _ => error.end(),
+    };
+    match failed.filter(|&end| end < planes.len()) {
         // The others are cut without it.
         Some(failed) => {
             notes.push(Note::NotCut { at: place_of(&planes[failed]), why: (&error).into() });
@@ -206,10 +246,13 @@ pub(crate) fn cut_at(mesh: TriMesh, planes: &[EndPlane], notes: &mut Vec<Note>) 
 
 #[cfg(test)]
 mod tests {
-    use lumen_mesh::shapes::{fork, tube};
+    use glam::Vec3Swizzles as _;
+    use lumen_mesh::shapes::{fork, isosurface, tube};
     use lumen_mesh::task::at_once;
 
     use super::*;
+    use crate::cap::CapKind;
+    use crate::prepare::prepare;
 
     fn planned_by(mesh: &TriMesh, clip: Option<ClipAt>, cuts: Vec<Cut>) -> Cuts {
         at_once(super::cuts(mesh, &Plan { clip, cuts, ..Plan::default() }, &Yielder::never())).unwrap()
@@ -272,5 +315,52 @@ mod tests {
         let found = planned_by(&mesh, None, vec![Cut { end_mm: [0.0, 30.0, 0.0], at: mm(1.0) }]);
         assert_eq!(found.notes, [Note::NoEndThere { at: [0.0, 30.0, 0.0] }]);
         assert!(found.ends.iter().all(|end| end.plane.is_none()));
+    }
+
+    #[test]
+    fn a_thorn_on_an_end_is_cut_off_with_it() {
+        let mesh = tube(64, 160, 40.0, |_| 2.0);
+        let at = |z: f64, radius_mm: f64| EndPlane {
+            branch: None,
+            at_end: true,
+            centre: DVec3::Z * z,
+            normal: DVec3::Z,
+            radius_mm,
+            roundness: 1.0,
+            arc_mm: 40.0 - z,
+        };
+        let cut = |thorn_mm: f64| {
+            let mut notes = Vec::new();
+            let (cut, _) = cut_at(mesh.clone(), &[at(30.0, 2.0), at(35.0, thorn_mm)], &mut notes);
+            let [Note::NotCut { at, why: Reason::OtherEnd }] = notes[..] else { panic!("{notes:?}") };
+            (cut.bounds().max[2], at[2])
+        };
+        assert_eq!(cut(0.3), (30.0, 35.0));
+        // An end of about that width is one.
+        assert_eq!(cut(1.5), (35.0, 30.0));
+    }
+
+    #[test]
+    fn the_dome_of_an_aneurysm_on_a_model_with_caps_is_no_end() {
+        // A tube of 4 mm with a sac of 7, longer than wide, between two flat caps.
+        let inside = |p: DVec3| {
+            let sac = (p - DVec3::Y * 25.0) / DVec3::new(7.0, 24.0, 7.0);
+            (4.0 - p.xy().length()).min(61.0 - p.z.abs()).max(7.0 * (1.0 - sac.length()))
+        };
+        let mesh = isosurface(DVec3::new(-8.0, -5.0, -62.0), DVec3::new(8.0, 51.0, 62.0), 0.6, inside);
+        let at = |z: f64| Cut { end_mm: [0.0, 0.0, z], at: mm(6.0) };
+        let plan = Plan { cuts: vec![at(-58.0), at(58.0)], cap: Some(CapKind::Planar), ..Plan::default() };
+        let model = at_once(prepare(&mesh, &plan, &Yielder::never())).unwrap();
+        assert_eq!(model.surface.patches.len(), 3, "{:?}", model.notes);
+        let model = model.surface.mesh;
+        let found = planned_by(&model, Some(ClipAt::Distance(Length::Radii(1.0))), Vec::new());
+        let (sacs, others): (Vec<_>, Vec<_>) = found.ends.iter().partition(|end| end.tip().y > 10.0);
+        assert_eq!((sacs.len(), others.len()), (1, 2), "{sacs:?}");
+        assert_eq!((&sacs[0].plane, &sacs[0].why), (&None, &Some(Reason::Sac)));
+        assert!(others.iter().all(|end| end.plane.is_some()), "{others:?}");
+        // Who asks for that very end has it cut.
+        let asked = Cut { end_mm: sacs[0].tip().to_array(), at: mm(3.0) };
+        let found = planned_by(&model, None, vec![asked]);
+        assert_eq!(found.ends.iter().filter(|end| end.plane.is_some()).count(), 1);
     }
 }

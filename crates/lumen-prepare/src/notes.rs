@@ -53,6 +53,8 @@ messages! {
         "solver-why-fine" TooFine => "its edges are too short for its area",
         /// Something that [`check`](super::check::check) tells more of.
         "solver-why-unsound" Unsound => "the surface is not in order there",
+        /// The vessel does not go on there.
+        "solver-why-sac" Sac => "it is a sac, wider than its neck",
     }
 }
 
@@ -228,6 +230,7 @@ impl From<&EndError> for Reason {
         match error {
             EndError::TooNearFork { room_mm, .. } => Self::Fork { room_mm: room_mm.max(0.0) },
             EndError::NotRound { .. } => Self::NotRound,
+            EndError::Sac { .. } => Self::Sac,
             EndError::NoSection { .. } => Self::NoSection,
             _ => Self::Unsound,
         }

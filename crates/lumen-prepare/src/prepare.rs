@@ -117,8 +117,8 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     yielder.rest(0.05).await;
     let (mut mesh, crossing) = if plan.uncross {
         let part = yielder.part(0.05..0.3);
-        let Uncrossed { mesh, crossing_before, crossing_after, .. } = uncross_in_slices(&mesh, &part).await?;
-        (largest_piece(mesh).0, Some([crossing_before, crossing_after]))
+        let Uncrossed { mesh, crossing_before, .. } = uncross_in_slices(&mesh, &part).await?;
+        (largest_piece(mesh).0, Some(crossing_before))
     } else {
         (mesh, None)
     };
@@ -170,6 +170,8 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     yielder.rest(0.95).await;
     surface.mesh = compacted(&surface.mesh.positions, surface.mesh.triangles);
     let fate = check(&surface);
+    // What was left is mended with the triangles that are made anew.
+    let crossing = crossing.map(|before| [before, fate.crossing()]);
     Ok(Prepared { surface, fate, notes, crossing, remeshed })
 }
 

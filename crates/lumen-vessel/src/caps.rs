@@ -22,6 +22,10 @@ const LEFT_OUT_OF: f64 = 0.4;
 const NEAR: f64 = 2.5;
 /// A ball smaller than this part of it is one in a corner. The line there is left out too.
 const CORNER: f64 = 0.8;
+/// The same at the end of a branch that may be closed askew, by up to 45 degrees; and the part of the vessel's radius from which
+/// on it is whole.
+const ASKEW: f64 = 4.0;
+const WHOLE: f64 = 0.9;
 /// The least length of a line that is led on, in radii.
 const SHORTEST: f64 = 1.0;
 /// The way on is that over so many radii before.
@@ -65,6 +69,24 @@ pub(super) fn extended_to_caps(space: &Space, branches: &[Branch], branch: &Bran
     led
 }
 
+impl Branch {
+    /// The vessel's radius at its first point or `at_end`, and how far from there its line has it, both in mm: before, in the
+    /// corner of an end that is closed askew, balls are smaller. `None` for a branch without points.
+    pub fn radius_at_end(&self, at_end: bool) -> Option<(f64, f64)> {
+        let mut inwards: Vec<usize> = (self.ostium..self.points.len()).collect();
+        if at_end {
+            inwards.reverse();
+        }
+        let tip = *inwards.first()?;
+        let own: Vec<Place> = inwards.iter().map(|&i| self.points[i]).collect();
+        let radius = vessel_radius(&own, own[0], ASKEW);
+        let is_whole = |place: &Place| place.radius >= WHOLE * radius;
+        let first = own.iter().position(is_whole).filter(|_| own[0].radius < CORNER * radius).unwrap_or(0);
+        let radius = if first == 0 { own[0].radius } else { radius };
+        Some((radius, (self.arcs[inwards[first]] - self.arcs[tip]).abs()))
+    }
+}
+
 fn length(points: &[Place]) -> f64 {
     arcs(points).last().copied().unwrap_or(0.0)
 }
@@ -77,11 +99,11 @@ fn is_beside_another(branches: &[Branch], branch: &Branch, end: usize) -> bool {
 }
 
 /// The radius of the vessel that a line ends in.
-fn vessel_radius(points: &[Place], tip: Place) -> f64 {
+fn vessel_radius(points: &[Place], tip: Place, near: f64) -> f64 {
     let mut radius = tip.radius;
     loop {
-        let near = points.iter().filter(|place| place.at.distance(tip.at) < NEAR * radius);
-        let largest = near.map(|place| place.radius).fold(radius, f64::max);
+        let around = points.iter().filter(|place| place.at.distance(tip.at) < near * radius);
+        let largest = around.map(|place| place.radius).fold(radius, f64::max);
         if largest <= radius {
             return radius;
         }
@@ -92,7 +114,7 @@ fn vessel_radius(points: &[Place], tip: Place) -> f64 {
 /// The line with its last part led on to the cap, and the vessel's radius there; `None` where there is none.
 fn led_on(space: &Space, points: &[Place]) -> Option<(Vec<Place>, f64)> {
     let tip = *points.last()?;
-    let radius = vessel_radius(points, tip);
+    let radius = vessel_radius(points, tip, NEAR);
     let whole = length(points);
     if points.len() < 3 || whole < SHORTEST * radius || radius <= 0.0 {
         return None;

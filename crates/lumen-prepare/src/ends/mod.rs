@@ -4,7 +4,8 @@
 //! Feret width is at least [`ROUND`]), where the rim of an open end lies wholly beyond the plane, and which is at least
 //! one local radius away from the fork that the branch comes from. A closed end is cut no nearer to its tip than about
 //! one and a half radii. The plane stands across the chord of the centreline from one radius before the place to one
-//! radius after it.
+//! radius after it. Where a closed end is askew the centreline runs into its corner: radii, and the search, begin where the
+//! vessel is whole.
 //!
 //! It does not look at what a solver needs of the flow: a vessel that bends sharply at its end is cut where it is round.
 
@@ -94,6 +95,12 @@ pub enum EndError {
         branch: u32,
         /// Whether the last point is meant.
         at_end: bool,
+    },
+    /// It is no end of the vessel.
+    #[error("branch {} ends in a sac", branch + 1)]
+    Sac {
+        /// Its place.
+        branch: u32,
     },
     /// The distance is negative or no number.
     #[error("the distance from the end of branch {} is not a positive number of mm", branch + 1)]
@@ -274,10 +281,21 @@ impl VesselEnd<'_> {
         })
     }
 
+    /// The radius of the vessel at the end, and how far from the end of the line it is whole, in mm: before that the line runs
+    /// into the corner of an end that is closed askew.
+    fn whole(&self) -> (f64, f64) {
+        self.branch.radius_at_end(self.at_end).unwrap_or_default()
+    }
+
     fn at_distance(&self, distance: Length) -> Result<EndPlane, EndError> {
         let (branch, at_end) = (self.branch.id, self.at_end);
-        let asked_mm = distance.mm(self.at(0.0).radius).ok_or(EndError::Distance { branch })?;
         let room_mm = self.room();
+        let (radius_mm, whole_mm) = self.whole();
+        let whole = distance.mm(radius_mm).map(|mm| whole_mm + mm).filter(|&mm| mm <= room_mm);
+        let asked_mm = match (distance, whole) {
+            (Length::Radii(_), Some(whole)) => whole,
+            _ => distance.mm(self.at(0.0).radius).ok_or(EndError::Distance { branch })?,
+        };
         if asked_mm > room_mm {
             return Err(EndError::TooNearFork { branch, at_end, asked_mm, room_mm });
         }
@@ -310,7 +328,11 @@ impl VesselEnd<'_> {
         let rim = if end == End::Open { self.rim(tip, rims) } else { &[] };
         let first = if end == End::Open { FIRST_OPEN } else { FIRST_CLOSED };
         let room_mm = self.room();
-        let mut from_end = first * tip.radius;
+        let (radius_mm, whole_mm) = self.whole();
+        let mut from_end = whole_mm + first * radius_mm;
+        if from_end > room_mm {
+            from_end = first * tip.radius;
+        }
         if from_end > room_mm {
             return Err(EndError::TooNearFork { branch, at_end, asked_mm: from_end, room_mm });
         }
@@ -358,7 +380,7 @@ pub(crate) fn proposed(mesh: &TriMesh, tree: &Tree) -> (Vec<EndPlane>, Vec<EndEr
 
 #[cfg(test)]
 mod tests {
-    use lumen_mesh::shapes::{fork, tube};
+    use lumen_mesh::shapes::{fork, isosurface, tube};
 
     use super::*;
 
@@ -407,6 +429,30 @@ mod tests {
             assert!(plane.normal.dot(out) > 0.995, "{plane:?}");
             assert!((plane.radius_mm / radius - 1.0).abs() < 0.03, "{plane:?}");
         }
+    }
+
+    #[test]
+    fn an_end_that_is_closed_askew_is_cut_where_the_vessel_is_whole() {
+        // Closed at 30 and 45 degrees: the centreline runs into the corner, where a ball is a small part of the vessel.
+        for degrees in [30.0f64, 45.0] {
+            let normal = DVec3::new(degrees.to_radians().sin(), 0.0, degrees.to_radians().cos());
+            let inside = |p: DVec3| {
+                let wall = 8.0 - p.truncate().length();
+                wall.min((DVec3::Z * 70.0 - p).dot(normal)).min(p.z + 10.0)
+            };
+            let mesh = isosurface(DVec3::new(-9.0, -9.0, -12.0), DVec3::new(9.0, 9.0, 82.0), 0.7, inside);
+            let tree = Tree::new(&mesh).unwrap();
+            let planes = EndPlanes::new(&mesh, &tree).unwrap();
+            let (branch, at_end) = free_ends(&tree).max_by(|a, b| tip(*a).z.total_cmp(&tip(*b).z)).unwrap();
+            let one_radius = planes.at(branch, at_end, Length::Radii(1.0)).unwrap();
+            for plane in [one_radius, planes.round(branch, at_end).unwrap()] {
+                assert!((plane.radius_mm / 8.0 - 1.0).abs() < 0.02 && plane.normal.z > 0.98, "{degrees}: {plane:?}");
+            }
+        }
+    }
+
+    fn tip((branch, at_end): (&Branch, bool)) -> DVec3 {
+        branch.points[if at_end { branch.points.len() - 1 } else { 0 }].at
     }
 
     #[test]

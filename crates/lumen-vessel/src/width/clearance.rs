@@ -113,7 +113,9 @@ pub fn clearances(samples: &[Ball], mesh: &TriMesh, topology: &Topology, index: 
     let sides = Sides::new(mesh, topology);
     let clearance = |sample: &Ball| {
         let Some(nearest) = index.nearest(sample.centre) else { return 0.0 };
-        if sides.is_outside(sample.centre, &nearest) == Some(true) { 0.0 } else { nearest.distance }
+        // Beside triangles that are there twice, once turned, the nearest says no more than chance: rays have the last word.
+        let is_outside = sides.is_outside(sample.centre, &nearest) == Some(true) && !is_inside(sample.centre, index);
+        if is_outside { 0.0 } else { nearest.distance }
     };
     parallel::map_ranges(samples.len(), PIECE, |piece| samples[piece].iter().map(clearance).collect::<Vec<_>>())
         .concat()
@@ -172,6 +174,7 @@ fn places(mut pinched: Vec<Ball>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec2;
     use lumen_mesh::shapes::{icosphere, tube};
     use lumen_mesh::{Vec3, inner_radii};
 
@@ -192,6 +195,25 @@ mod tests {
     /// A tube of 1.5 mm with a waist at z = 20.
     fn waisted(waist: f32) -> TriMesh {
         tube(32, 160, 40.0, |z| 0.75 - (0.75 - waist) * (-(z - 20.0) * (z - 20.0)).exp())
+    }
+
+    #[test]
+    fn beside_a_membrane_of_triangles_twice_both_sides_are_inside() {
+        // A disc across a tube that is there twice, once turned.
+        let mut mesh = waisted(0.75);
+        let rim = (0..32u32).map(|i| Vec2::from_angle(std::f32::consts::TAU * i as f32 / 32.0) * 0.74);
+        for is_turned in [false, true] {
+            let first = mesh.positions.len() as u32;
+            mesh.positions.push(Vec3::Z * 10.0);
+            mesh.positions.extend(rim.clone().map(|p| p.extend(10.0)));
+            let fan = (0..32).map(|i| [first, first + 1 + i, first + 1 + (i + 1) % 32]);
+            mesh.triangles.extend(fan.map(|[a, b, c]| if is_turned { [a, c, b] } else { [a, b, c] }));
+        }
+        let (topology, index) = indexed(&mesh);
+        let samples = [9.7, 10.3].map(|z| Ball { centre: Vec3::new(0.2, 0.1, z), radius: 0.3 });
+        for clearance in clearances(&samples, &mesh, &topology, &index) {
+            assert!((clearance - 0.3).abs() < 1e-5, "{clearance}");
+        }
     }
 
     #[test]
