@@ -117,3 +117,58 @@ impl Rod {
         self.coupled = memory;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::rod::{Fixed, Hessian, Section};
+    use lumen_mesh::split_mix::SplitMix64;
+
+    #[test]
+    fn a_direction_solves_the_equations_with_the_springs_in_them() {
+        let mut random = SplitMix64::new(1);
+        let mut random = || random.unit() - 0.5;
+        let section = Section {
+            length: 1.0,
+            cell: 1.0,
+            ei: 2.0,
+            gj: 1.0,
+            ea: 50.0,
+            mass: 1e-9,
+            drag: 1e-6,
+            ..Section::default()
+        };
+        let positions = (0..30).map(|i| DVec3::new(f64::from(i), 0.3 * random(), 0.3 * random())).collect();
+        let mut rod = Rod::new(positions, vec![section; 30], DVec3::Y);
+        (28..30).for_each(|i| rod.fixed[i] = Fixed { position: true, angle: true });
+        rod.forces = (0..28).map(|i| (i, DVec3::new(random(), random(), random()))).collect();
+        rod.assemble(0.002, 0.0, Hessian::Safe);
+        // The last two hardly differ, and the first holds what is fixed, too.
+        let mut couplings: Vec<Coupling> = [[2, 28], [5, 20], [11, 6], [14, 27], [14, 27]]
+            .map(|nodes| Coupling {
+                pulls: nodes.map(|node| (node, std::array::from_fn(|i| if i == 3 { 0.0 } else { random() }))),
+                stiffness: 4.0,
+            })
+            .to_vec();
+        couplings[4].pulls = couplings[3].pulls;
+        couplings[4].stiffness = 100.0;
+        let rows = rod.len() * PER_NODE;
+        let is_fixed = |row: usize| row >= 28 * PER_NODE;
+        rod.begin_change();
+        rod.begin_direction();
+        let entries: Vec<f64> = (0..rows * rows).map(|entry| rod.band.entry(entry / rows, entry % rows)).collect();
+        rod.solve_coupled(Hessian::Safe, &couplings).unwrap();
+        for row in (0..rows).filter(|&row| !is_fixed(row)) {
+            let mut sum: f64 = (0..rows).map(|column| entries[row * rows + column] * rod.direction[column]).sum();
+            for coupling in &couplings {
+                let moved: f64 = rod.pulls(coupling).map(|(row, pull)| pull * rod.direction[row]).sum();
+                let pull: f64 = rod.pulls(coupling).filter(|pull| pull.0 == row).map(|(_, pull)| pull).sum();
+                sum += coupling.stiffness * pull * moved;
+            }
+            assert!((sum + rod.gradient[row]).abs() < 1e-9, "row {row}: {sum} for {}", -rod.gradient[row]);
+        }
+        assert!((28 * PER_NODE..rows).all(|row| rod.direction[row] == 0.0));
+    }
+}

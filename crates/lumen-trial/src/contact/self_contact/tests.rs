@@ -5,9 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use lumen_mesh::shapes::tube;
 
-use crate::body::Body;
 use crate::report::StepKind;
-use crate::rod::{Fixed, Rod, Section};
 use crate::setup::{Entry, Input};
 use crate::simulation::Simulation;
 use crate::wall::Wall;
@@ -56,9 +54,8 @@ fn sac() -> Arc<Wall> {
 /// What came of feeding a wire into the sac.
 #[derive(Debug, Default)]
 struct Fed {
-    /// The least distance in balanced steps, in diameters, and the number of balanced steps that it was below 0.95 in.
+    /// The least distance in balanced steps, in diameters.
     least: f64,
-    near: usize,
     steps: [usize; 5],
     /// The longest run of steps that were held or waited for.
     longest: usize,
@@ -81,8 +78,10 @@ fn fed(name: &str, steps: usize) -> Fed {
         let nodes: Vec<DVec3> = simulation.nodes().collect();
         if report.kind == StepKind::Balanced {
             let near = nearest(&nodes, wire.diameter_mm);
-            fed.near += usize::from(near < 0.95);
             fed.least = fed.least.min(near);
+            // The body finds what a search through all edges does, but for what is hardly nearer than a node.
+            let (diameter, known) = (wire.diameter_mm, simulation.body().overlap);
+            assert!(near >= 1.1 || known >= diameter * (0.99 - near), "{name}: {near} diameters, {known} mm");
         }
         fed.pairs =
             fed.pairs.max(simulation.body().contacts.pairs().iter().filter(|pair| pair.multiplier > 0.0).count());
@@ -93,9 +92,10 @@ fn fed(name: &str, steps: usize) -> Fed {
 
 #[test]
 fn a_wire_that_coils_in_a_sac_stays_a_diameter_from_itself() {
-    for name in ["floppy", "workhorse", "stiff", "035-j"] {
-        let start = std::time::Instant::now();
-        let fed = fed(name, 6000);
-        println!("{name}: {fed:?} {:?}", start.elapsed());
+    for name in ["floppy", "workhorse", "035-j"] {
+        let fed = fed(name, 4500);
+        println!("{name}: {fed:?}");
+        assert!(fed.pairs > 5, "{name}: it does not touch itself: {fed:?}");
+        assert!(fed.least > 0.95, "{name}: {fed:?}");
     }
 }
