@@ -68,18 +68,18 @@ fn two_pieces_that_cross_share_a_load_by_their_stiffness() {
             }
             let pressed: f64 = body.contacts.pairs().iter().map(|pair| pair.multiplier).sum();
             // Two beams clamped alike give way to a load in their middle by 1 / EI.
-            found.compare(&format!("{part} EI across {place}: force"), LOAD / (1.0 + part), pressed, Part(5e-3), count);
+            found.compare(&format!("{part} EI across {place}: force"), LOAD / (1.0 + part), pressed, Part(1e-3), count);
             let height = |first: usize| {
                 let [low, high] = [first + (count - 1) / 2, first + count / 2];
                 body.rod.positions[low].midpoint(body.rod.positions[high]).z
             };
             let apart = height(all - count) - height(0);
-            found.compare(&format!("{part} EI across {place}: distance"), 2.0 * RADIUS, apart, Part(1e-3), count);
+            found.compare(&format!("{part} EI across {place}: distance"), 2.0 * RADIUS, apart, Part(1e-4), count);
             // What the one feels the other feels the other way; the clamps of the lower piece bear it.
             assert!(body.contacts.total_of_pairs(all).length() < 1e-15);
             body.rod.assemble_from(0);
             let borne: DVec3 = [0, 1, count - 2, count - 1].iter().map(|&i| body.rod.reaction_force(i)).sum();
-            found.compare(&format!("{part} EI across {place}: clamps"), pressed, borne.z, Part(5e-3), count);
+            found.compare(&format!("{part} EI across {place}: clamps"), pressed, borne.z, Part(1e-4), count);
         }
     }
     found.finish();
