@@ -27,7 +27,8 @@ const BLOCK: usize = 8;
 pub(super) struct Candidates {
     /// Two edges, the one nearer to the tip first.
     pub(super) edges: Vec<[usize; 2]>,
-    /// A node and an edge, in order.
+    /// A node and an edge, in order. Of nodes that are nearer to each other than a radius only some are listed: each costs a
+    /// solution of the band matrix, and a wire does not bend in between.
     pub(super) nodes: Vec<[usize; 2]>,
     /// By how much the edges that are not listed were out of reach at least, in mm.
     slack: f64,
@@ -142,6 +143,9 @@ impl Candidates {
         }
         self.edges.push([i, j]);
         let has_edge_between = |[node, edge]: &[usize; 2]| *edge > node + 1 || edge + 2 < *node;
-        self.nodes.extend([[i, j], [i + 1, j], [j, i], [j + 1, i]].iter().filter(|pair| has_edge_between(pair)));
+        let number = |node: usize| (2.0 * self.arcs[node] / diameter).floor();
+        let is_first = |node: usize| node == 0 || number(node) > number(node - 1);
+        let is_listed = |pair: &&[usize; 2]| has_edge_between(pair) && is_first(pair[0]);
+        self.nodes.extend([[i, j], [i + 1, j], [j, i], [j + 1, i]].iter().filter(is_listed));
     }
 }

@@ -1,5 +1,5 @@
 //! What two places of a rod do to each other where its surface touches itself: the augmented Lagrangian of a contact with the
-//! wall ([`law`](super::super::law)), with the gap between both, and without friction.
+//! wall (`law`), with the gap between both, and without friction.
 //!
 //! The force is a derivative of one energy by both places, so what the one feels the other feels the other way.
 
