@@ -1,6 +1,11 @@
 //! What a hand feels of a real trial: no jump when an element is born or a contact changes, and no more work than it did.
 
 use crate::steps::{in_an_s, in_the_aorta};
+use lumen::haptics::device::HapticDevice;
+use lumen::haptics::identity::Identity;
+use lumen::haptics::port::{Port as _, carry_out};
+use lumen::haptics::service::Service;
+use lumen::haptics::virtual_feeder::VirtualFeeder;
 use lumen::trial::STEP;
 use lumen::trial::report::StepKind;
 use lumen::trial::session::{ROW_STEPS, Trial};
@@ -103,4 +108,29 @@ fn over_closed_cycles_the_hand_gives_and_is_given_nothing() {
             assert!(held.work[0] > -0.005 && held.work[1] > -0.01, "{name}: {:?} N mm after cycle {cycle}", held.work);
         }
     }
+}
+
+/// A feeder of 5 N, and a host that looks at it each ms.
+#[test]
+fn a_push_of_50_mn_is_felt_as_three_times_as_much_on_the_feeder() {
+    let mut feeder = VirtualFeeder::default();
+    let device = HapticDevice::from_descriptor(Identity::default(), feeder.descriptor()).unwrap();
+    let mut service = Service::new(device);
+    service.device_mut().arm();
+    let (push, stiffness) = ([0.05, 0.0], VirtualCoupling::default().stiffness());
+    for _ in 0..2000 {
+        feeder.advance();
+        let now = f64::from(feeder.now_ms());
+        while let Ok(Some(report)) = feeder.poll() {
+            service.device_mut().input(now, report.id, &report.data);
+        }
+        service.advance(1e-3);
+        service.feel(now, Some((push, stiffness)));
+        if let Some(request) = service.device_mut().next(now) {
+            _ = carry_out(&mut feeder, &request, |reply| service.device_mut().reply(now, reply));
+        }
+    }
+    // What slides at the feeder's own friction takes a part of it.
+    let felt = -feeder.forces()[0];
+    assert!((0.15..0.25).contains(&felt), "{felt} N");
 }

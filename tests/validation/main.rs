@@ -17,6 +17,7 @@ mod invariance;
 mod readout;
 mod refinement;
 mod rods;
+mod self_contact;
 mod spectrum;
 mod torsion;
 mod tube_buckling;

@@ -13,7 +13,7 @@ use crate::document;
 use crate::step::{cargo, root, run, step, target};
 
 /// A benchmark, and what its plot shows: name, title, axes, whether both are logarithmic.
-const BENCHMARKS: [(&str, &str, [&str; 2], bool); 44] = [
+const BENCHMARKS: [(&str, &str, [&str; 2], bool); 45] = [
     ("cantilever", "Cantilever under an end load", ["P L² / EI", "tip over L"], false),
     ("cantilever-order", "Cantilever: error of the tip", ["elements", "error over L"], true),
     ("ring", "Ring closed by an end moment", ["x / L", "y / L"], false),
@@ -57,6 +57,7 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 44] = [
     ("return", "The tip on its way in and out", ["x, mm", "y, mm"], false),
     ("balance", "Wall force while a wire is steered", ["time, s", "sum over the wall, mN"], false),
     ("refinement", "Wall force on the way into a bend", ["length fed in, mm", "sum over the wall, mN"], false),
+    ("self-contact", "Two pieces of a wire that cross", ["", ""], false),
     ("orders", "A vessel in five other orders", ["", ""], false),
     ("free-bar", "A free bar swings", ["time over the period", "bow, mm"], false),
     ("settled", "A force at a tip", ["", ""], false),

@@ -70,8 +70,8 @@ pub struct DeviceStatus {
     pub ended: Option<String>,
 }
 
-/// 1 N, and 10 N mm, are half of what the device gives.
-const FACTOR: [f64; 2] = [0.5, 0.05];
+/// 1 N is four fifths, and 10 N mm are half, of what the device gives.
+const FACTOR: [f64; 2] = [0.8, 0.05];
 
 /// A device being served.
 pub struct Service {

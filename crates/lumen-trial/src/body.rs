@@ -10,7 +10,7 @@ use super::report::StepKind;
 use super::rod::{Hessian, Rod};
 use super::wall::Wall;
 
-/// The part of the radius that the wire may reach into the wall when a step is done.
+/// The part of the radius that the wire may reach into the wall when a step is done, and of the diameter into itself.
 const DEPTH: f64 = 0.035;
 /// The part of the radius that a node may move in a step: its middle then cannot pass the wall unseen.
 const STRIDE: f64 = 0.9;
@@ -48,6 +48,8 @@ pub struct Body {
     pub contacts: Contacts,
     /// How far it reaches into the wall, in mm; negative when it is clear.
     pub depth: f64,
+    /// How far it reaches into itself, in mm; negative when it does not.
+    pub overlap: f64,
     wall: Option<Arc<Wall>>,
     /// The contacts of the correction under way.
     springs: Springs,
@@ -68,6 +70,7 @@ impl Body {
             rod,
             contacts: Contacts::new(radius, friction),
             depth: f64::NEG_INFINITY,
+            overlap: f64::NEG_INFINITY,
             wall,
             springs: Springs::default(),
             damping: 0.0,
@@ -88,6 +91,7 @@ impl Body {
             Some(wall) => self.contacts.detect(&self.rod, count, wall),
             None => f64::NEG_INFINITY,
         };
+        self.overlap = self.contacts.detect_self(&self.rod, count);
     }
 
     /// A step of `dt` seconds, in which the first `count` nodes can touch the wall. `prepare` puts what is fixed where it
@@ -141,9 +145,12 @@ impl Body {
 
     fn try_step(&mut self, dt: f64, count: usize, damping: f64) -> bool {
         let radius = self.contacts.radius;
-        let stride = if self.wall.is_some() { STRIDE * radius } else { f64::INFINITY };
-        let strides: Vec<f64> =
-            (0..self.rod.len()).map(|i| stride.max(STRIDE * self.contacts.clearance(&self.rod, i))).collect();
+        let room = |i: usize| {
+            let wall = if self.wall.is_some() { self.contacts.clearance(&self.rod, i) } else { f64::INFINITY };
+            // Two pieces of the rod may come towards each other.
+            wall.min(0.5 * self.contacts.room(i))
+        };
+        let strides: Vec<f64> = (0..self.rod.len()).map(|i| STRIDE * room(i).max(radius)).collect();
         let is_too_far = |rod: &Rod| {
             // What is fixed is inside the guide.
             (0..rod.len()).any(|i| !rod.fixed[i].position && rod.positions[i].distance(rod.start(i)) > strides[i])
@@ -169,7 +176,7 @@ impl Body {
             }
             self.contacts.note_forces(&self.rod);
             self.detect(count);
-            let is_deep = self.depth > DEPTH * radius;
+            let is_deep = self.depth > DEPTH * radius || self.overlap > DEPTH * 2.0 * radius;
             if moved < ACCEPTED_CORRECTION && !is_deep && (round > 0 || !self.has_let_go) {
                 return true;
             }

@@ -9,8 +9,8 @@
 //! new one on the way cut a correction short, down to a hundredth, and the next began with the same direction but for
 //! that one.
 
-use super::contact::{Spring, Springs};
-use super::rod::{Hessian, Rod};
+use super::contact::{Link, Spring, Springs};
+use super::rod::{Coupling, Hessian, Rod};
 
 /// Search directions in a correction.
 const DIRECTIONS: usize = 8;
@@ -38,25 +38,35 @@ pub(super) fn descend(rod: &mut Rod, springs: &mut Springs, hessian: Hessian) ->
     for _ in 0..DIRECTIONS {
         rod.begin_direction();
         springs.closed.iter_mut().for_each(|spring| spring.add(rod));
-        let direction = rod.solve(hessian)?;
+        let couplings: Vec<Coupling> = springs.links.iter_mut().filter_map(|link| link.add(rod)).collect();
+        let direction = rod.solve_coupled(hessian, &couplings)?;
         springs.close(rod, gone, direction.moved);
         springs.closed.iter_mut().for_each(|spring| spring.look_ahead(rod));
+        springs.links.iter_mut().for_each(|link| link.look_ahead(rod));
+        let links = &springs.links;
         live.clear();
         live.extend(springs.closed.iter().filter(|spring| spring.is_live(direction.most)));
         // Of the rod alone: its slope where the direction begins, and by what that changes on the whole of it.
-        let springs_at = |part: f64| live.iter().map(|spring| spring.slope(part)).sum::<f64>();
+        let springs_at = |part: f64| {
+            let of_links: f64 = links.iter().map(|link| link.slope(part)).sum();
+            live.iter().map(|spring| spring.slope(part)).sum::<f64>() + of_links
+        };
         let first = direction.slope - springs_at(0.0);
-        let rise = -direction.slope - live.iter().map(Spring::added).sum::<f64>();
+        let added = live.iter().map(Spring::added).sum::<f64>() + links.iter().map(Link::added).sum::<f64>();
+        let rise = -direction.slope - added;
         let part = line_search(direction.most, |part| first + part * rise + springs_at(part));
         if !(direction.moved.is_finite() && part.is_finite()) {
             return Some(Descent { moved: f64::INFINITY, fall: 0.0, is_settled: false });
         }
         fall += part * direction.slope;
-        rod.go(part, live.iter().flat_map(Spring::changed));
+        rod.go(part, live.iter().flat_map(Spring::changed).chain(links.iter().flat_map(Link::changed)));
         is_settled = part >= 1.0;
         gone += part * direction.moved;
         for spring in &mut springs.closed {
             is_settled &= !spring.go(part);
+        }
+        for link in &mut springs.links {
+            is_settled &= !link.go(part);
         }
         // A direction that is too long for the model ends the correction.
         if is_settled || (direction.most < 1.0 && part >= direction.most) {

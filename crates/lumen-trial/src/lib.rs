@@ -9,6 +9,7 @@
 //! - *Multiplier*: the normal force that a contact begins a step with, and the one a step has come to; with it the gap at
 //!   rest is 0 whatever the penalty.
 //! - *Slip*: how far the rod's surface has gone across the normal; its elastic part is what friction springs back by.
+//! - *Pair*: two places of the rod that touch each other, or nearly do.
 //! - *Coulomb limit*: what friction can give, `mu N`: by the static coefficient where a contact sticks, by the kinetic one
 //!   where it slides.
 //! - *Return mapping*: the slip as if the contact stuck, brought back to the Coulomb limit.

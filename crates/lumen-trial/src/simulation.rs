@@ -269,7 +269,8 @@ impl Simulation {
         let (rod, first) = (&self.body.rod, self.outside());
         let loads: DVec3 = rod.forces.iter().map(|&(_, force)| force).sum();
         let drag: DVec3 = (0..first).map(|i| rod.velocities[i] * rod.sections[i].drag).sum();
-        reaction + self.body.contacts.total() + loads - drag - (momentum(rod, first) - before) / dt
+        let contacts = self.body.contacts.total() + self.body.contacts.total_of_pairs(first);
+        reaction + contacts + loads - drag - (momentum(rod, first) - before) / dt
     }
 
     /// The rod and its contacts.

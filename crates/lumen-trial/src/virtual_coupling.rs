@@ -9,7 +9,7 @@
 //!
 //! `B v` is all that a free wire is felt by, and what makes the coupling passive: the hand's work goes into the spring, into
 //! the wire and into B. The push counts as of the last step that was balanced, and in other steps what is felt stands still.
-//! It is bounded: a hand that pushes harder slips on the wire. The delay is that of the row, 20 ms, and of `B / K`, 10 ms.
+//! It is bounded: a hand that pushes harder slips on the wire. The delay is that of the row, 20 ms, and of `B / K`, 17 ms.
 
 use serde::{Deserialize, Serialize};
 
@@ -38,8 +38,9 @@ pub struct CouplingGains {
 }
 
 impl CouplingGains {
-    /// Along the wire.
-    pub const FEED: Self = Self { stiffness: 0.1, drag: 0.001, most: 2.0, slew: 5.0 };
+    /// Along the wire. A device renders `stiffness` times its factor as a spring, and can render only so stiff a spring: the
+    /// softer this is, the more of a push is felt.
+    pub const FEED: Self = Self { stiffness: 0.06, drag: 0.001, most: 2.0, slew: 5.0 };
     /// About it.
     pub const ROLL: Self = Self { stiffness: 1.0, drag: 0.01, most: 5.0, slew: 25.0 };
 }

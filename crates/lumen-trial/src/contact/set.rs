@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::detection::Manifold;
 use super::law::Contact;
+use super::self_contact::{Pair, SelfContacts};
 use super::spring::{Open, Spring, Springs, spread};
 use crate::rod::Rod;
 use crate::wall::Wall;
@@ -15,6 +16,8 @@ const STIFFER: f64 = 4.0;
 #[derive(Clone, Debug)]
 pub struct Contacts {
     manifold: Manifold,
+    /// Where it touches itself.
+    own: SelfContacts,
     /// Radius of the rod in mm.
     pub radius: f64,
     /// Coefficients of friction, sticking and sliding.
@@ -26,7 +29,7 @@ pub struct Contacts {
 impl Contacts {
     /// None yet, for a rod of this radius in mm and these coefficients of friction.
     pub fn new(radius: f64, friction: [f64; 2]) -> Self {
-        Self { manifold: Manifold::default(), radius, friction, stiffer: 1.0 }
+        Self { manifold: Manifold::default(), own: SelfContacts::new(), radius, friction, stiffer: 1.0 }
     }
 
     /// Measures the gaps of the first `count` nodes, the last one excepted, and of the edges between them. Returns how far
@@ -38,6 +41,30 @@ impl Contacts {
     /// Lets go of the contacts of all but the first `count` nodes and the edges between them.
     pub fn keep(&mut self, count: usize) {
         self.manifold.keep(count);
+        self.own.keep(count);
+    }
+
+    /// Measures the gaps between pieces of the rod, for the first `count` nodes and the edges behind them. Returns how far
+    /// the rod reaches into itself, in mm; less than 0 where it does not.
+    pub fn detect_self(&mut self, rod: &Rod, count: usize) -> f64 {
+        self.own.detect(rod, count, self.radius)
+    }
+
+    /// How far a node and the edges beside it are from other pieces of the rod at least, in mm.
+    pub fn room(&self, node: usize) -> f64 {
+        self.own.room(node)
+    }
+
+    /// Where the rod touches itself, or nearly does.
+    pub fn pairs(&self) -> &[Pair] {
+        &self.own.pairs
+    }
+
+    /// What the rod's pieces do to each other, in N, summed over its first `count` nodes: nothing, but for what the others
+    /// bear.
+    pub fn total_of_pairs(&self, count: usize) -> DVec3 {
+        let forces = self.own.pairs.iter().flat_map(Pair::forces);
+        forces.filter(|&(node, _)| node < count).map(|(_, force)| force).sum()
     }
 
     /// How far the wall is at least from a node and the edges beside it, in mm; 0 where that is not known.
@@ -59,6 +86,7 @@ impl Contacts {
     pub fn begin(&mut self) {
         self.stiffer = 1.0;
         self.manifold.each(|_, contact| contact.begin());
+        self.own.begin();
     }
 
     /// Sets what friction can give in the corrections that follow: Coulomb's limit.
@@ -69,12 +97,15 @@ impl Contacts {
 
     /// The energy of all contacts, in N mm.
     pub fn potential(&self, rod: &Rod) -> f64 {
-        self.near().map(|(node, contact)| contact.potential(rod, node, self.radius, self.stiffer)).sum()
+        let of_wall: f64 =
+            self.near().map(|(node, contact)| contact.potential(rod, node, self.radius, self.stiffer)).sum();
+        of_wall + self.pairs().iter().map(|pair| pair.potential(rod, self.stiffer)).sum::<f64>()
     }
 
     /// The contacts as they are along a straight change of the rod from where it is now.
     pub(crate) fn linearise(&self, rod: &Rod, springs: &mut Springs) {
         springs.clear();
+        springs.links.extend(self.pairs().iter().map(|pair| pair.link(rod, self.stiffer)));
         for (node, contact) in self.near() {
             let penalty = self.stiffer * contact.penalty;
             let force = contact.multiplier - penalty * contact.gap_now(rod, node);
@@ -107,6 +138,7 @@ impl Contacts {
     pub fn note_forces(&mut self, rod: &Rod) {
         let stiffer = self.stiffer;
         self.manifold.each(|node, contact| contact.note_force(rod, node, stiffer));
+        self.own.pairs.iter_mut().for_each(|pair| pair.note_force(rod, stiffer));
     }
 
     /// Lets the corrections that follow begin with the forces that those before have come to, and be stiffer: what is
@@ -114,17 +146,20 @@ impl Contacts {
     pub fn update_multipliers(&mut self) {
         self.stiffer *= STIFFER;
         self.manifold.each(|_, contact| contact.update_multiplier());
+        self.own.pairs.iter_mut().for_each(Pair::update_multiplier);
     }
 
     /// Goes back to the multipliers at the beginning of the step.
     pub fn undo(&mut self) {
         self.stiffer = 1.0;
         self.manifold.each(|_, contact| contact.undo());
+        self.own.pairs.iter_mut().for_each(Pair::undo);
     }
 
     /// Lets go of all forces: the next step finds them anew.
     pub fn forget(&mut self) {
         self.manifold.each(|_, contact| contact.forget());
+        self.own.pairs.iter_mut().for_each(Pair::forget);
     }
 
     /// Ends a step: the forces it has come to are the multipliers of the next, none by more than `rise` N above what it
@@ -132,6 +167,7 @@ impl Contacts {
     pub fn finish(&mut self, rod: &Rod, rise: f64) {
         let (radius, friction) = (self.radius, self.friction);
         self.manifold.each(|node, contact| contact.finish(rod, node, radius, friction, rise));
+        self.own.pairs.iter_mut().for_each(|pair| pair.finish(rise));
     }
 
     /// What the wall does to each of the first `count` nodes, in N.

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::law::SLIP_PENALTY;
+use super::self_contact::Link;
 use crate::rod::Rod;
 
 /// A contact and its friction along a straight change of the rod.
@@ -219,6 +220,8 @@ pub(crate) fn spread(v: DVec3, angle: f64, along: f64) -> [f64; 7] {
 pub(crate) struct Springs {
     pub(crate) closed: Vec<Spring>,
     pub(crate) open: Vec<Open>,
+    /// Where the rod touches itself, or nearly does.
+    pub(crate) links: Vec<Link>,
 }
 
 impl Springs {
@@ -226,13 +229,14 @@ impl Springs {
     pub(crate) fn clear(&mut self) {
         self.closed.clear();
         self.open.clear();
+        self.links.clear();
     }
 
     /// Closes those that press at the end of the search direction that was found; on those before it no node has moved by
     /// more than `gone` mm, on all of it none by more than `moved`.
     #[inline]
     pub(crate) fn close(&mut self, rod: &Rod, gone: f64, moved: f64) {
-        let Self { closed, open } = self;
+        let Self { closed, open, .. } = self;
         let reach = gone + moved;
         open.retain(|open| {
             if open.force + open.penalty * reach <= 0.0 {

@@ -117,6 +117,35 @@ impl Band {
             let Some(x) = x[at..].first_chunk_mut() else { break };
             is_definite &= eliminate(own, next, last, x);
         }
+        self.substitute_back(x);
+        x.truncate(rows);
+        is_definite
+    }
+
+    /// Solves `L y = x` in place once the matrix is factored, where `x` is 0 before a node. Rows end with two nodes of
+    /// zeros.
+    pub(super) fn substitute(&self, from: usize, x: &mut [f64]) {
+        for (block, at) in self.blocks[from..].iter().zip((from * PER_NODE..).step_by(PER_NODE)) {
+            let Some(x) = x[at..].first_chunk_mut::<{ 3 * PER_NODE }>() else { break };
+            let [l0, l1, l2, l3] = block;
+            x[1] -= l0[1] * x[0];
+            x[2] -= l0[2] * x[0] + l1[2] * x[1];
+            x[3] -= l0[3] * x[0] + l1[3] * x[1] + l2[3] * x[2];
+            let [a, b, c, d] = [x[0], x[1], x[2], x[3]];
+            for column in PER_NODE..3 * PER_NODE {
+                x[column] -= (a * l0[column] + b * l1[column]) + (c * l2[column] + d * l3[column]);
+            }
+        }
+    }
+
+    /// The inverse of each pivot of the factored matrix.
+    pub(super) fn pivots(&self) -> impl Iterator<Item = f64> {
+        self.blocks.iter().flat_map(|block| [block[0][0], block[1][1], block[2][2], block[3][3]])
+    }
+
+    /// Solves `L^T y = x` in place once the matrix is factored. Rows end with two nodes of zeros.
+    pub(super) fn substitute_back(&self, x: &mut [f64]) {
+        let rows = x.len() - 2 * PER_NODE;
         for (i, at) in (0..rows).step_by(PER_NODE).enumerate().rev() {
             let (block, Some(x)) = (&self.blocks[i], x[at..].first_chunk_mut::<{ 3 * PER_NODE }>()) else { break };
             let behind = block.map(|row| dot::<8>(&row[PER_NODE..], &x[PER_NODE..]));
@@ -125,8 +154,6 @@ impl Band {
             x[1] -= behind[1] + block[1][3] * x[3] + block[1][2] * x[2];
             x[0] -= behind[0] + block[0][3] * x[3] + block[0][2] * x[2] + block[0][1] * x[1];
         }
-        x.truncate(rows);
-        is_definite
     }
 
     /// An entry.
@@ -151,16 +178,16 @@ fn eliminate(own: &mut Block, next: &mut Block, last: &mut Block, x: &mut [f64; 
         (*row, row.map(|entry| entry * inverse), inverse)
     };
     let [r0, r1, r2, r3] = own;
-    let (u0, l0, d0) = pivot(r0, 0);
+    let (u0, mut l0, d0) = pivot(r0, 0);
     subtract::<0, 12>(r1, &u0, l0[1]);
     subtract::<2, 10>(r2, &u0, l0[2]);
     subtract::<2, 10>(r3, &u0, l0[3]);
-    let (u1, l1, d1) = pivot(r1, 1);
+    let (u1, mut l1, d1) = pivot(r1, 1);
     subtract::<2, 10>(r2, &u1, l1[2]);
     subtract::<2, 10>(r3, &u1, l1[3]);
-    let (u2, l2, d2) = pivot(r2, 2);
+    let (u2, mut l2, d2) = pivot(r2, 2);
     subtract::<2, 10>(r3, &u2, l2[3]);
-    let (u3, l3, d3) = pivot(r3, 3);
+    let (u3, mut l3, d3) = pivot(r3, 3);
     x[1] -= l0[1] * x[0];
     x[2] -= l0[2] * x[0] + l1[2] * x[1];
     x[3] -= l0[3] * x[0] + l1[3] * x[1] + l2[3] * x[2];
@@ -180,6 +207,8 @@ fn eliminate(own: &mut Block, next: &mut Block, last: &mut Block, x: &mut [f64; 
         x[column] -= (a * x[0] + b * x[1]) + (c * x[2] + d * x[3]);
     }
     [x[0], x[1], x[2], x[3]] = [x[0] * d0, x[1] * d1, x[2] * d2, x[3] * d3];
+    // The diagonal, which is 1, keeps what the pivots have become.
+    (l0[0], l1[1], l2[2], l3[3]) = (d0, d1, d2, d3);
     *own = [l0, l1, l2, l3];
     is_definite
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::band::PER_NODE;
+use super::coupling::Coupling;
 use super::hessian::Hessian;
 use super::state::Rod;
 
@@ -44,6 +45,11 @@ impl Rod {
     /// Solves the equations for the search direction on from the change so far; its move is infinite when there is no
     /// answer. `None` when the matrix is not positive definite, which only that of [`Hessian::Safe`] always is.
     pub fn solve(&mut self, hessian: Hessian) -> Option<Direction> {
+        self.solve_coupled(hessian, &[])
+    }
+
+    /// The same with springs between far places of the rod, whose forces have been added.
+    pub(crate) fn solve_coupled(&mut self, hessian: Hessian, couplings: &[Coupling]) -> Option<Direction> {
         self.direction.clear();
         self.direction.extend(self.gradient.iter().map(|g| -g));
         for (i, fixed) in self.fixed.iter().enumerate() {
@@ -55,6 +61,9 @@ impl Rod {
         }
         if !self.band.solve(&mut self.direction) && hessian != Hessian::Safe {
             return None;
+        }
+        if !couplings.is_empty() {
+            self.couple(couplings);
         }
         let mut largest = 0.0f64;
         let mut most = 1.0f64;

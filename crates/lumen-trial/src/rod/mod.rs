@@ -24,6 +24,7 @@
 mod band;
 mod bend;
 mod change;
+mod coupling;
 mod energy;
 mod frame;
 mod hessian;
@@ -32,6 +33,7 @@ mod state;
 mod step;
 
 pub use change::Direction;
+pub(crate) use coupling::Coupling;
 pub use hessian::Hessian;
 pub use section::{Fixed, Section};
 pub use state::Rod;

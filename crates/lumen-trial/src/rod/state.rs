@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::band::Band;
+use super::coupling::Coupled;
 use super::frame::{Edge, Strain, carried};
 use super::section::{Fixed, Section};
 
@@ -42,6 +43,8 @@ pub struct Rod {
     /// The search direction that was found last, and the change that has come of them so far.
     pub(super) direction: Vec<f64>,
     pub(super) change: Vec<f64>,
+    /// Working memory of couplings.
+    pub(super) coupled: Coupled,
     /// Positions and spins from which the change leads on.
     pub(super) base: (Vec<DVec3>, Vec<f64>),
 }
@@ -165,6 +168,11 @@ impl Rod {
     /// The twist at an inner node, in radians.
     pub fn twist(&self, node: usize) -> f64 {
         self.strains[node].twist
+    }
+
+    /// At least the angle between the edges at a node, in radians; 0 at the ends.
+    pub fn turn(&self, node: usize) -> f64 {
+        self.strains[node].squared.sqrt()
     }
 
     /// The discrete curvature at an inner node: towards the director, and across.
