@@ -284,8 +284,10 @@ messages! {
         "trial-doing-exchanging" Exchanging => "Taking the wire out for another",
         /// It waits while attempts are simulated.
         "trial-doing-looking-ahead" LookingAhead {
-            /// The part of the steps that it may take that is done.
-            percent: u32,
-        } => "Looking ahead ({percent} %)",
+            /// Which of them, counted from 1.
+            attempt: u32,
+            /// How many there are.
+            attempts: u32,
+        } => "Looking ahead, attempt {attempt} of {attempts}",
     }
 }

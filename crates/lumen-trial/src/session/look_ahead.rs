@@ -9,7 +9,7 @@
 use std::collections::VecDeque;
 
 use super::{Progress, State, Trial};
-use crate::autopilot::Autopilot;
+use crate::autopilot::{Autopilot, AutopilotTask};
 use crate::log::Log;
 use crate::stopwatch::Stopwatch;
 
@@ -116,8 +116,126 @@ impl LookAhead {
         self.steps
     }
 
-    /// The part of the steps that it may take that is done.
-    pub(super) fn percent(&self) -> u32 {
-        (100 * self.steps / self.most) as u32
+    /// What it is doing, to a user.
+    pub(super) fn task(&self) -> AutopilotTask {
+        let attempts = Autopilot::plan().count();
+        AutopilotTask::LookingAhead { attempt: (attempts - self.rest.len()) as u32, attempts: attempts as u32 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use glam::DVec3;
+
+    use super::*;
+    use crate::course::Course;
+    use crate::log::Log;
+    use crate::setup::{Entry, Setup};
+    use crate::wire::Wire;
+    use lumen_mesh::shapes::{in_capsule, isosurface};
+
+    /// A trunk 16 mm wide with a branch half as wide that leaves it by 60°, and a trial on the way into that.
+    fn forked(wire: &'static str, next: &[&'static str]) -> Trial {
+        let (sin, cos) = libm::sincos(60.0f64.to_radians());
+        let joint = DVec3::Z * 45.0;
+        let end = joint + DVec3::new(sin, 0.0, cos) * 40.0;
+        let inside = |p: DVec3| {
+            let trunk = in_capsule(p, DVec3::ZERO, DVec3::Z * 90.0, 8.0);
+            trunk.max(in_capsule(p, joint, end, 4.0))
+        };
+        let mesh = Arc::new(isosurface(DVec3::splat(-9.0), DVec3::new(40.0, 9.0, 109.0), 1.0, inside));
+        let mut setup = Setup {
+            wire: Wire::preset(wire).unwrap(),
+            next_wires: next.iter().map(|wire| Wire::preset(wire).unwrap()).collect(),
+            entry: Some(Entry { at: [0.0, 0.0, 4.0], direction: [0.0, 0.0, 1.0] }),
+            target: Some(end.as_vec3().to_array()),
+            seed: 2,
+            ..Setup::default()
+        };
+        let course = Arc::new(Course::new(&mesh, None, &mut setup).unwrap());
+        let mut trial = Trial::new(course, setup).unwrap();
+        trial.set_autopilot(true);
+        trial
+    }
+
+    fn bits(trial: &Trial) -> Vec<u64> {
+        trial.simulation().nodes().flat_map(|p| p.to_array()).map(f64::to_bits).collect()
+    }
+
+    fn until_it_looks_ahead(trial: &mut Trial) {
+        while !trial.is_looking_ahead() {
+            assert_eq!(trial.progress(), Progress::Running);
+            trial.step();
+        }
+    }
+
+    #[test]
+    fn the_attempt_that_is_found_gets_past_and_the_log_replays_without_looking_ahead() {
+        let mut trial = forked("035-angled", &[]);
+        until_it_looks_ahead(&mut trial);
+        let (stands, summary) = (bits(&trial), trial.summary());
+        let mut attempts = Vec::new();
+        while trial.is_looking_ahead() {
+            let doing = trial.frame().doing;
+            if attempts.last() != Some(&doing) {
+                attempts.push(doing);
+            }
+            trial.step();
+        }
+        assert_eq!((bits(&trial), trial.summary()), (stands, summary), "the trial stands still");
+        let told = |attempt| Some(AutopilotTask::LookingAhead { attempt, attempts: 21 });
+        assert_eq!(attempts, (1..=attempts.len() as u32).map(told).collect::<Vec<_>>());
+        trial.finish();
+        let summary = trial.summary();
+        // The attempts that fail are left out.
+        assert!(summary.success && summary.retractions == 2 && attempts.len() > 1, "{}, {attempts:?}", summary.reason);
+        assert!((500..MAX_STEPS).contains(&summary.steps_looked_ahead), "{}", summary.steps_looked_ahead);
+        let mut again = forked("035-angled", &[]);
+        again.finish();
+        assert_eq!((bits(&again), again.summary().steps_looked_ahead), (bits(&trial), summary.steps_looked_ahead));
+        let recorded = Log::read(trial.log().csv(summary.steps).unwrap().as_bytes()).unwrap();
+        let mut replayed = Trial::new(trial.course().clone(), recorded.setup).unwrap();
+        replayed.replay(recorded.inputs, recorded.steps);
+        (0..summary.steps).for_each(|_| replayed.step());
+        assert_eq!((bits(&replayed), replayed.progress()), (bits(&trial), Progress::Arrived));
+        assert_eq!(replayed.summary().steps_looked_ahead, 0);
+    }
+
+    #[test]
+    fn a_hand_that_takes_the_wire_meanwhile_finds_it_as_it_was() {
+        let mut trial = forked("035-angled", &[]);
+        until_it_looks_ahead(&mut trial);
+        let (stands, summary, rows) = (bits(&trial), trial.summary(), trial.log().rows.clone());
+        (0..300).for_each(|_| trial.step());
+        assert!(trial.is_looking_ahead());
+        trial.set_autopilot(false);
+        assert!(!trial.is_looking_ahead() && trial.frame().doing.is_none());
+        assert_eq!((bits(&trial), trial.summary(), &trial.log().rows), (stands, summary, &rows));
+        // The autopilot that has it back looks ahead anew, and comes to the same end.
+        trial.set_autopilot(true);
+        trial.finish();
+        let mut whole = forked("035-angled", &[]);
+        whole.finish();
+        assert_eq!(bits(&trial), bits(&whole));
+        // A step back ends it, too.
+        let mut trial = forked("035-angled", &[]);
+        until_it_looks_ahead(&mut trial);
+        let steps = trial.simulation().steps();
+        trial.step_back();
+        assert!(!trial.is_looking_ahead() && trial.simulation().steps() < steps);
+    }
+
+    #[test]
+    fn where_no_attempt_gets_past_within_the_bound_the_next_wire_goes_in() {
+        // The tip of the first is too short.
+        let mut trial = forked("workhorse", &["035-angled"]);
+        trial.finish();
+        let summary = trial.summary();
+        assert_eq!(summary.failed_wires, ["workhorse"]);
+        assert!(summary.success && summary.retractions < 10, "{summary:?}");
+        // One place for the one wire, and another for the other.
+        assert!((10_000..=2 * MAX_STEPS).contains(&summary.steps_looked_ahead), "{summary:?}");
     }
 }

@@ -397,7 +397,7 @@ impl Trial {
     /// What the autopilot is doing.
     fn task(&self) -> AutopilotTask {
         match &self.ahead {
-            Some(ahead) => AutopilotTask::LookingAhead { percent: ahead.percent() },
+            Some(ahead) => ahead.task(),
             None if self.state.leaving.is_some() => AutopilotTask::Exchanging,
             None => self.state.autopilot.task(),
         }
