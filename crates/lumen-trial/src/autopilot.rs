@@ -105,8 +105,8 @@ struct Trouble {
     times: usize,
     /// The attempt that is made, of those that differ: 1 for the first.
     attempt: usize,
-    /// Steps that were looked ahead there.
-    looked_ahead: u64,
+    /// Whether it was looked ahead there.
+    has_looked: bool,
 }
 
 /// The autopilot's mind.
@@ -193,23 +193,19 @@ impl Autopilot {
         2..PLAN + 2
     }
 
-    /// Makes this attempt when the wire is withdrawn next.
-    pub(super) fn settle(&mut self, attempt: Option<usize>) {
-        self.settled = attempt;
-    }
-
-    /// So many steps more were looked ahead at the place where it is tried again.
-    pub(super) fn count_looked_ahead(&mut self, steps: u64) {
+    /// It was looked ahead at the place where it would withdraw the wire next: makes this attempt then, if one was found.
+    pub(super) fn looked_ahead(&mut self, found: Option<usize>) {
+        self.settled = found;
         if let Some(trouble) = &mut self.trouble {
-            trouble.looked_ahead += steps;
+            trouble.has_looked = true;
         }
     }
 
-    /// Where it has withdrawn the wire again at a place since it was as `before`: arc length of that place, in mm, and steps
-    /// that were looked ahead there.
-    pub(super) fn failed_again_since(&self, before: &Self) -> Option<(f64, u64)> {
-        let trouble = self.trouble.filter(|trouble| trouble.times > 1 && self.retractions > before.retractions);
-        trouble.map(|trouble| (trouble.arc, trouble.looked_ahead))
+    /// The place, as arc length in mm, at which it has withdrawn the wire again since it was as `before`, if it was not
+    /// looked ahead there.
+    pub(super) fn failed_again_since(&self, before: &Self) -> Option<f64> {
+        let trouble = self.trouble.filter(|trouble| trouble.times > 1 && !trouble.has_looked)?;
+        (self.retractions > before.retractions).then_some(trouble.arc)
     }
 
     /// Whether it is past a place, by so much that what goes wrong next does so at another.
@@ -229,8 +225,8 @@ impl Autopilot {
         let right = route.at(arc + INTO * route.at(arc).radius).at;
         let away = if seen.is_off { Some(right - seen.tip) } else { known.and_then(|trouble| trouble.away) };
         let attempt = self.settled.take().unwrap_or(times + 1);
-        let looked_ahead = known.map_or(0, |trouble| trouble.looked_ahead);
-        self.trouble = Some(Trouble { arc, away, times: times + 1, attempt, looked_ahead });
+        let has_looked = known.is_some_and(|trouble| trouble.has_looked);
+        self.trouble = Some(Trouble { arc, away, times: times + 1, attempt, has_looked });
         let by = BY[(attempt - 1) % BY.len()];
         self.doing = Doing::Withdrawing { arc: self.best - by, inserted: (seen.inserted - by).max(5.0) };
         (self.astray, self.looped) = (0.0, 0.0);

@@ -1,10 +1,13 @@
 //! Looking ahead by simulation: which of the autopilot's attempts at a place gets past it.
 //!
 //! Each is made on a copy of the trial, in the autopilot's own order, until the tip is past the place, or the wire would be
-//! withdrawn again. Steps are counted, and no clock is looked at: the same trial finds the same. What is simulated is what
-//! happens, so the attempt that is then made gets past, too.
+//! withdrawn again. Where none gets past and there is another wire, all that the autopilot would do with this one is
+//! simulated, too: each failure leaves the wire as another attempt may find it. Only where that is in vain is it exchanged.
 //!
-//! Limits: only the autopilot's own attempts are tried, one deep. What comes after the place is not looked at.
+//! Steps are counted, and no clock is looked at: the same trial finds the same. What is simulated is what happens, so what
+//! gets past then gets past again.
+//!
+//! Limits: only the autopilot's own attempts are tried. What comes after the place is not looked at.
 
 use std::collections::VecDeque;
 
@@ -13,36 +16,43 @@ use crate::autopilot::{Autopilot, AutopilotTask};
 use crate::log::Log;
 use crate::stopwatch::Stopwatch;
 
-/// Steps that are looked ahead at one place. An attempt takes 400 to 2,000, and there are 21.
-pub(super) const MAX_STEPS: u64 = 30_000;
+/// Steps that are looked ahead at one place. An attempt takes 400 to 2,000, there are 21, and all that is done with a wire
+/// that does not get past takes 20,000 to 30,000.
+const MAX_STEPS: u64 = 60_000;
 
 /// Attempts that are simulated one after another.
 #[derive(Debug)]
 pub(super) struct LookAhead {
     /// A copy of the trial, in which one is made.
     trial: Trial,
-    /// Those that follow it.
-    rest: VecDeque<usize>,
-    /// The one that is made.
-    attempt: usize,
+    /// All of them: by their number in the autopilot's plan, or `None` for what it would do without looking ahead.
+    attempts: VecDeque<Option<usize>>,
+    /// How many of them were in vain.
+    failed: usize,
     /// Arc length of the place along the route, in mm.
     place: f64,
-    /// Times that the wire is withdrawn once it is made.
+    /// Times that the wire is withdrawn once an attempt is made.
     retractions: u32,
-    /// Steps so far, and at most.
+    /// Steps so far.
     steps: u64,
-    most: u64,
-    found: Option<usize>,
-    is_over: bool,
+    found: Option<Found>,
+}
+
+/// What was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Found {
+    /// This attempt gets past.
+    Attempt(usize),
+    /// What would be done without looking ahead gets past, or may.
+    Usual,
+    /// Nothing gets past.
+    Nothing,
 }
 
 impl LookAhead {
-    /// For a trial whose autopilot would withdraw the wire again at `place`, and be as `withdrawn`; `None` where `looked`
-    /// steps are all that may be looked ahead there.
-    pub(super) fn new(trial: &Trial, withdrawn: &Autopilot, place: f64, looked: u64) -> Option<Self> {
-        let most = MAX_STEPS.checked_sub(looked).filter(|&most| most > 0)?;
-        let mut plan = Autopilot::plan();
-        let attempt = plan.next()?;
+    /// For a trial whose autopilot would withdraw the wire again at `place`, and be as `withdrawn`.
+    pub(super) fn new(trial: &Trial, withdrawn: &Autopilot, place: f64) -> Self {
+        let usual = trial.next_that_fits().map(|_| None);
         let copy = Trial {
             course: trial.course.clone(),
             setup: trial.setup.clone(),
@@ -59,55 +69,49 @@ impl LookAhead {
         };
         let mut ahead = Self {
             trial: copy,
-            rest: plan.collect(),
-            attempt,
+            attempts: Autopilot::plan().map(Some).chain(usual).collect(),
+            failed: 0,
             place,
             retractions: withdrawn.retractions,
             steps: 0,
-            most,
             found: None,
-            is_over: false,
         };
-        ahead.trial.state.autopilot.settle(Some(attempt));
-        Some(ahead)
+        ahead.begin();
+        ahead
     }
 
-    /// A step of the attempt that is made, or the beginning of the next; `state` is that of the trial.
+    /// Begins an attempt, where the copy is as the trial.
+    fn begin(&mut self) {
+        match self.attempts.get(self.failed) {
+            Some(&attempt) => self.trial.state.autopilot.looked_ahead(attempt),
+            None => self.found = Some(Found::Nothing),
+        }
+    }
+
+    /// A step of an attempt, and the beginning of the next if that was in vain; `state` is that of the trial.
     pub(super) fn step(&mut self, state: &State) {
+        let Some(&attempt) = self.attempts.get(self.failed) else { return };
         self.trial.step();
         self.steps += 1;
         let ahead = &self.trial.state;
         if ahead.progress == Progress::Arrived || ahead.autopilot.is_past(self.place, &self.trial.seen()) {
-            (self.found, self.is_over) = (Some(self.attempt), true);
-        } else if self.steps >= self.most {
-            self.is_over = true;
+            self.found = Some(attempt.map_or(Found::Usual, Found::Attempt));
+        } else if self.steps >= MAX_STEPS {
+            self.found = Some(Found::Usual);
         } else if ahead.progress != Progress::Running
             || ahead.leaving.is_some()
-            || ahead.autopilot.retractions > self.retractions
+            || attempt.is_some() && ahead.autopilot.retractions > self.retractions
         {
-            self.begin_next(state);
+            self.failed += 1;
+            self.trial.state.clone_from(state);
+            self.trial.marks.clear();
+            self.trial.log.rows.clear();
+            self.begin();
         }
     }
 
-    fn begin_next(&mut self, state: &State) {
-        let Some(attempt) = self.rest.pop_front() else {
-            self.is_over = true;
-            return;
-        };
-        self.attempt = attempt;
-        self.trial.state.clone_from(state);
-        self.trial.state.autopilot.settle(Some(attempt));
-        self.trial.marks.clear();
-        self.trial.log.rows.clear();
-    }
-
-    /// Whether it has found what it can.
-    pub(super) fn is_over(&self) -> bool {
-        self.is_over
-    }
-
-    /// The attempt that gets past the place.
-    pub(super) fn found(&self) -> Option<usize> {
+    /// What was found, once it is over.
+    pub(super) fn found(&self) -> Option<Found> {
         self.found
     }
 
@@ -118,8 +122,8 @@ impl LookAhead {
 
     /// What it is doing, to a user.
     pub(super) fn task(&self) -> AutopilotTask {
-        let attempts = Autopilot::plan().count();
-        AutopilotTask::LookingAhead { attempt: (attempts - self.rest.len()) as u32, attempts: attempts as u32 }
+        let attempts = self.attempts.len();
+        AutopilotTask::LookingAhead { attempt: (self.failed + 1).min(attempts) as u32, attempts: attempts as u32 }
     }
 }
 
@@ -235,7 +239,7 @@ mod tests {
         let summary = trial.summary();
         assert_eq!(summary.failed_wires, ["workhorse"]);
         assert!(summary.success && summary.retractions < 10, "{summary:?}");
-        // One place for the one wire, and another for the other.
+        // One place for the one wire, and one for the other.
         assert!((10_000..=2 * MAX_STEPS).contains(&summary.steps_looked_ahead), "{summary:?}");
     }
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use web_time::Instant;
 
-use self::look_ahead::LookAhead;
+use self::look_ahead::{Found, LookAhead};
 use super::STEP;
 use super::autopilot::{Autopilot, AutopilotTask, BACK as WITHDRAWAL, DECISION, FEED, Seen};
 use super::course::{Course, TrialError};
@@ -74,7 +74,7 @@ struct State {
 /// wire out and goes on with that one from the entry. The steps that this takes are steps of the trial.
 ///
 /// Where it withdraws the wire again at a place, the trial stands still and looks ahead: what it would try is simulated,
-/// attempt by attempt, on a copy. The first that gets past is then made; where none does, the wire is taken out for
+/// attempt by attempt, on a copy. The first that gets past is then made; where nothing does, the wire is taken out for
 /// another, or, if there is none, what would be tried is tried. The log has what was done alone.
 #[derive(Debug)]
 pub struct Trial {
@@ -232,12 +232,12 @@ impl Trial {
 
     /// Whether it stands still and looks ahead. Until it has, a step is one of what is simulated for that.
     pub fn is_looking_ahead(&self) -> bool {
-        self.ahead.as_ref().is_some_and(|ahead| !ahead.is_over())
+        self.ahead.as_ref().is_some_and(|ahead| ahead.found().is_none())
     }
 
     /// One step of [`STEP`] seconds; nothing once it is over.
     pub fn step(&mut self) {
-        if let Some(ahead) = self.ahead.as_mut().filter(|ahead| !ahead.is_over()) {
+        if let Some(ahead) = self.ahead.as_mut().filter(|ahead| ahead.found().is_none()) {
             ahead.step(&self.state);
             return;
         }
@@ -361,24 +361,23 @@ impl Trial {
         let seen = self.seen();
         let ahead = self.ahead.take();
         let mut autopilot = self.state.autopilot.clone();
+        let found = ahead.as_ref().and_then(|ahead| ahead.found());
         if let Some(ahead) = &ahead {
-            autopilot.settle(ahead.found());
-            autopilot.count_looked_ahead(ahead.steps());
+            autopilot.looked_ahead(if let Some(Found::Attempt(attempt)) = found { Some(attempt) } else { None });
             self.state.meter.looked_ahead += ahead.steps();
         }
         let input = autopilot.decide(&self.course.route, &seen);
         let is_late = self.state.steered as f64 * STEP > self.limit_s;
-        if ahead.is_none() && self.looks_ahead && !is_late {
-            let failed_again = autopilot.failed_again_since(&self.state.autopilot);
-            self.ahead =
-                failed_again.and_then(|(place, looked)| LookAhead::new(self, &autopilot, place, looked)).map(Box::new);
-            if self.ahead.is_some() {
-                return;
-            }
+        if self.looks_ahead
+            && !is_late
+            && let Some(place) = autopilot.failed_again_since(&self.state.autopilot)
+        {
+            self.ahead = Some(Box::new(LookAhead::new(self, &autopilot, place)));
+            return;
         }
         self.state.autopilot = autopilot;
         self.state.meter.retractions = self.state.retractions + self.state.autopilot.retractions;
-        let is_in_vain = ahead.is_some_and(|ahead| ahead.found().is_none());
+        let is_in_vain = found == Some(Found::Nothing);
         let has_failed = is_late || input.is_none() || is_in_vain || self.state.autopilot.has_failed_at_a_place();
         match input {
             _ if has_failed && self.next_that_fits().is_some() => self.state.leaving = Some(0),
