@@ -49,6 +49,15 @@ pub(super) enum Found {
     Nothing,
 }
 
+impl Found {
+    pub(super) fn attempt(self) -> Option<usize> {
+        match self {
+            Self::Attempt(attempt) => Some(attempt),
+            Self::Usual | Self::Nothing => None,
+        }
+    }
+}
+
 impl LookAhead {
     /// For a trial whose autopilot would withdraw the wire again at `place`, and be as `withdrawn`.
     pub(super) fn new(trial: &Trial, withdrawn: &Autopilot, place: f64) -> Self {

@@ -359,12 +359,13 @@ impl Trial {
             return;
         }
         let seen = self.seen();
-        let ahead = self.ahead.take();
         let mut autopilot = self.state.autopilot.clone();
-        let found = ahead.as_ref().and_then(|ahead| ahead.found());
-        if let Some(ahead) = &ahead {
-            autopilot.looked_ahead(if let Some(Found::Attempt(attempt)) = found { Some(attempt) } else { None });
+        let found = self.ahead.take().and_then(|ahead| {
             self.state.meter.looked_ahead += ahead.steps();
+            ahead.found()
+        });
+        if let Some(found) = found {
+            autopilot.looked_ahead(found.attempt());
         }
         let input = autopilot.decide(&self.course.route, &seen);
         let is_late = self.state.steered as f64 * STEP > self.limit_s;
