@@ -281,5 +281,8 @@ fn print(summary: &Summary) {
             summary.retractions, summary.wrong_branches, summary.loops, summary.path_ratio
         ),
     );
+    if summary.steps_looked_ahead > 0 {
+        row("looked ahead", format!("{} steps, beside those of the trial", summary.steps_looked_ahead));
+    }
     println!("{}", summary.notice);
 }

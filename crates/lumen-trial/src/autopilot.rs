@@ -9,6 +9,9 @@
 //!    the wrong branch towards the right one; then as in 1, turned more and more to the one side or the other by
 //!    `OFFSETS`. After `ATTEMPTS` give up.
 //!
+//! Which of these attempts gets past the place a [`Trial`](super::session::Trial) finds out by simulation, from the second
+//! on; those that do not are left out.
+//!
 //! The tip reaches no farther to the side than its bend is long: a branch on the far side of a wide lumen, from where the
 //! shaft lies, takes many tries, or a wire with a longer bend.
 
@@ -100,6 +103,10 @@ struct Trouble {
     away: Option<DVec3>,
     /// Times that it went wrong there.
     times: usize,
+    /// The attempt that is made, of those that differ: 1 for the first.
+    attempt: usize,
+    /// Whether it was looked ahead there.
+    has_looked: bool,
 }
 
 /// The autopilot's mind.
@@ -112,6 +119,8 @@ pub struct Autopilot {
     since_best: f64,
     astray: f64,
     looped: f64,
+    /// The attempt that is made when the wire is withdrawn next, where that is settled.
+    settled: Option<usize>,
     /// Times the wire was withdrawn.
     pub retractions: u32,
 }
@@ -125,6 +134,7 @@ impl Default for Autopilot {
             since_best: 0.0,
             astray: 0.0,
             looped: 0.0,
+            settled: None,
             retractions: 0,
         }
     }
@@ -178,6 +188,31 @@ impl Autopilot {
         self.trouble.is_some_and(|trouble| trouble.times > PLAN + 1)
     }
 
+    /// The attempts at a place that are not the same as one before, after the first, in turn.
+    pub(super) fn plan() -> impl Iterator<Item = usize> {
+        2..PLAN + 2
+    }
+
+    /// It was looked ahead at the place where it would withdraw the wire next: makes this attempt then, if one was found.
+    pub(super) fn looked_ahead(&mut self, found: Option<usize>) {
+        self.settled = found;
+        if let Some(trouble) = &mut self.trouble {
+            trouble.has_looked = true;
+        }
+    }
+
+    /// The place, as arc length in mm, at which it has withdrawn the wire again since it was as `before`, if it was not
+    /// looked ahead there.
+    pub(super) fn failed_again_since(&self, before: &Self) -> Option<f64> {
+        let trouble = self.trouble.filter(|trouble| trouble.times > 1 && !trouble.has_looked)?;
+        (self.retractions > before.retractions).then_some(trouble.arc)
+    }
+
+    /// Whether it is past a place, by so much that what goes wrong next does so at another.
+    pub(super) fn is_past(&self, place: f64, seen: &Seen) -> bool {
+        self.trouble.is_none() && !seen.is_off && seen.arc > place + BEFORE
+    }
+
     fn withdraw(&mut self, route: &Route, seen: &Seen) -> Option<()> {
         if self.retractions == ATTEMPTS {
             return None;
@@ -189,8 +224,10 @@ impl Autopilot {
         let arc = known.map_or(self.best, |trouble| trouble.arc.max(self.best));
         let right = route.at(arc + INTO * route.at(arc).radius).at;
         let away = if seen.is_off { Some(right - seen.tip) } else { known.and_then(|trouble| trouble.away) };
-        self.trouble = Some(Trouble { arc, away, times: times + 1 });
-        let by = BY[times % BY.len()];
+        let attempt = self.settled.take().unwrap_or(times + 1);
+        let has_looked = known.is_some_and(|trouble| trouble.has_looked);
+        self.trouble = Some(Trouble { arc, away, times: times + 1, attempt, has_looked });
+        let by = BY[(attempt - 1) % BY.len()];
         self.doing = Doing::Withdrawing { arc: self.best - by, inserted: (seen.inserted - by).max(5.0) };
         (self.astray, self.looped) = (0.0, 0.0);
         Some(())
@@ -205,8 +242,8 @@ impl Autopilot {
         let (to, offset) = match trouble {
             None if here.direction.dot(ahead.direction) > STRAIGHT => return 0.0,
             None => (on, 0.0),
-            Some(Trouble { away: Some(away), times: 1, .. }) => (away, 0.0),
-            Some(Trouble { times, .. }) => (on, OFFSETS[times.saturating_sub(2) % OFFSETS.len()]),
+            Some(Trouble { away: Some(away), attempt: 1, .. }) => (away, 0.0),
+            Some(Trouble { attempt, .. }) => (on, OFFSETS[attempt.saturating_sub(2) % OFFSETS.len()]),
         };
         let wanted = to.normalize_or(here.direction).reject_from(seen.shaft);
         let side = seen.side.reject_from(seen.shaft);
@@ -241,5 +278,12 @@ messages! {
         "trial-doing-withdrawing" Withdrawing => "Withdrawing",
         /// It withdraws the wire to put in another.
         "trial-doing-exchanging" Exchanging => "Taking the wire out for another",
+        /// It waits while attempts are simulated.
+        "trial-doing-looking-ahead" LookingAhead {
+            /// Which of them, counted from 1.
+            attempt: u32,
+            /// How many there are.
+            attempts: u32,
+        } => "Looking ahead, attempt {attempt} of {attempts}",
     }
 }

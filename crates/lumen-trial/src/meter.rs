@@ -99,6 +99,8 @@ pub struct Meter {
     pub wrong_branches: u32,
     /// Times turned back on itself.
     pub loops: u32,
+    /// Steps that were looked ahead.
+    pub looked_ahead: u64,
 }
 
 impl Meter {

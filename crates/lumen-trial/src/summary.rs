@@ -79,6 +79,9 @@ pub struct Summary {
     pub wrong_branches: u32,
     /// Times the wire turned back on itself.
     pub loops: u32,
+    /// Steps that were looked ahead, beside those of the trial.
+    #[serde(default)]
+    pub steps_looked_ahead: u64,
     /// Steps by kind. The forces below are of those that were balanced.
     pub step_kinds: StepCounts,
     /// The part of the steps that was not balanced.
@@ -224,6 +227,7 @@ impl Trial {
             retractions: meter.retractions,
             wrong_branches: meter.wrong_branches,
             loops: meter.loops,
+            steps_looked_ahead: meter.looked_ahead,
             max_wall_force_n: meter.max_wall_force_n,
             mean_wall_force_n: per(meter.wall_force_sum, meter.counts.balanced),
             wall_impulse_n_s: meter.wall_force_kept_sum * STEP,

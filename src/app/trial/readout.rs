@@ -9,6 +9,7 @@ use crate::language::{decimal, grouped, inner, tell};
 use crate::render::{Colour, viridis};
 use crate::say;
 use crate::trial::STEP;
+use crate::trial::autopilot::AutopilotTask;
 use crate::trial::frame::{Frame, Progress};
 use crate::trial::report::StepKind;
 
@@ -40,15 +41,21 @@ pub(super) fn sentence(run: &Run, frame: &Frame, has_finger: bool) -> (String, b
         Progress::GaveUp => say!("trial-gave-up"),
         Progress::Over => say!("trial-input-over"),
         Progress::Running if run.is_paused => say!("trial-paused"),
+        Progress::Running if let Some(doing @ AutopilotTask::LookingAhead { .. }) = frame.doing => steers(doing),
         Progress::Running if frame.is_looped => say!("trial-looped"),
         Progress::Running if frame.is_wrong_branch => say!("trial-wrong-branch"),
         Progress::Running if frame.is_behind => say!("trial-behind"),
         Progress::Running => match frame.doing {
-            Some(doing) => say!("trial-steers", doing = inner(&tell(&doing))),
+            Some(doing) => steers(doing),
             None => feed(frame.step == 0, has_finger),
         },
     };
     (text, matches!(frame.progress, Progress::Arrived | Progress::Running))
+}
+
+/// What the autopilot is doing.
+fn steers(doing: AutopilotTask) -> String {
+    say!("trial-steers", doing = inner(&tell(&doing)))
 }
 
 /// What to do, at first or later, by keys or by pads.

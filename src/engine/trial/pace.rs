@@ -79,6 +79,9 @@ impl Pace {
         let mut steps = 0;
         while self.owed >= STEP && start.elapsed() < slice && trial.progress() == Progress::Running {
             step(trial);
+            if trial.is_looking_ahead() {
+                break;
+            }
             self.owed -= STEP;
             steps += 1;
         }

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use lumen_message::Message as _;
+use web_time::Instant;
 
 use super::haptic_channel::{Grasp, HapticChannel};
 use super::message::{HAND, TrialEvent};
@@ -230,6 +231,8 @@ impl Shown {
             if moves && !self.is_paused {
                 self.mover.take_hold();
             }
+        } else if self.trial.is_looking_ahead() {
+            self.look_ahead(now_s, slice);
         } else {
             let Self { pace, trial, grasp, mover, .. } = self;
             pace.run(trial, now_s, slice, |trial| grasp.step(trial, *mover != Mover::Steering));
@@ -247,11 +250,21 @@ impl Shown {
             events.push_back(TrialEvent::Ended { id: self.id, summary, end });
         }
         match (is_over, self.stands()) {
+            (false, false) if self.trial.is_looking_ahead() => Some(Duration::ZERO),
             (false, false) => Some(self.pace.rest()),
             // A hand that takes hold of the wire is no command.
             (false, true) if self.grasp.is_awaited() && !self.is_paused => Some(LOOK),
             _ => None,
         }
+    }
+
+    /// Looks ahead for a slice, as fast as it goes: the wire stands, and that time is not made up for.
+    fn look_ahead(&mut self, now_s: f64, slice: Duration) {
+        let since = Instant::now();
+        while self.trial.is_looking_ahead() && since.elapsed() < slice {
+            self.trial.step();
+        }
+        self.wait(now_s);
     }
 
     fn tell_frame(&mut self, events: &mut VecDeque<TrialEvent>) {

@@ -3,16 +3,21 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use glam::DVec3;
+
 use super::engine::TrialEngine;
 use super::haptic_channel::HapticChannel;
 use super::message::{HAND, TrialCommand, TrialEvent};
 use super::pace::BEHIND;
+use crate::mesh::shapes::{in_capsule, isosurface};
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::trial::STEP;
+use crate::trial::autopilot::AutopilotTask;
 use crate::trial::frame::{Frame, Progress};
 use crate::trial::log::Log;
-use crate::trial::setup::{Input, Setup};
+use crate::trial::setup::{Entry, Input, Setup};
+use crate::trial::wire::Wire;
 
 const SLICE: Duration = Duration::from_millis(1);
 
@@ -316,4 +321,37 @@ fn a_device_s_hand_moves_the_wire_and_feels_it_and_one_that_is_silent_does_neith
     let stood = length(&engine);
     run(&mut engine, 0.5, None);
     assert!((length(&engine) - stood).abs() < 1e-9 && exchange.feels().is_none());
+}
+
+#[test]
+fn looking_ahead_goes_on_in_slices_while_the_wire_stands_and_ends_where_a_hand_takes_it() {
+    // A trunk with a branch in which this wire fails twice.
+    let (sin, cos) = libm::sincos(60.0f64.to_radians());
+    let joint = DVec3::Z * 45.0;
+    let end = joint + DVec3::new(sin, 0.0, cos) * 40.0;
+    let inside = |p: DVec3| {
+        let trunk = in_capsule(p, DVec3::ZERO, DVec3::Z * 90.0, 8.0);
+        trunk.max(in_capsule(p, joint, end, 4.0))
+    };
+    let mesh = Arc::new(isosurface(DVec3::splat(-9.0), DVec3::new(40.0, 9.0, 109.0), 1.0, inside));
+    let wire = Wire::preset("035-angled").unwrap();
+    let entry = Some(Entry { at: [0.0, 0.0, 4.0], direction: [0.0, 0.0, 1.0] });
+    let setup = Setup { wire, entry, target: Some(end.as_vec3().to_array()), seed: 2, ..Setup::default() };
+    let mut engine = TrialEngine::new();
+    engine.handle(TrialCommand::Start { id: 1, mesh, sample: None, setup });
+    engine.handle(TrialCommand::Autopilot(true));
+    let mut now_s = 0.0;
+    let mut advance = |engine: &mut TrialEngine| {
+        now_s += 0.02;
+        (engine.advance(now_s, SLICE), frames(engine).pop().map(|(_, frame)| frame))
+    };
+    let looks = |frame: &Frame| matches!(frame.doing, Some(AutopilotTask::LookingAhead { .. }));
+    let first = (0..50_000).find_map(|_| advance(&mut engine).1.filter(looks)).expect("it looks ahead");
+    let (again, next) = advance(&mut engine);
+    let next = next.expect("a frame");
+    assert_eq!((again, next.step, &next.nodes), (Some(Duration::ZERO), first.step, &first.nodes));
+    assert!(looks(&next) && !next.is_behind, "{next:?}");
+    engine.handle(TrialCommand::Autopilot(false));
+    let held = advance(&mut engine).1.expect("a frame");
+    assert!(held.doing.is_none() && held.step - first.step <= 10, "{held:?}");
 }

@@ -62,6 +62,7 @@ trial-doing-following = folgt der Route
 trial-doing-again = versucht es gedreht erneut
 trial-doing-withdrawing = zieht zurück
 trial-doing-exchanging = zieht den Draht heraus, um einen anderen zu nehmen
+trial-doing-looking-ahead = schaut voraus, Versuch { $attempt } von { $attempts }
 trial-feed-first = Den Draht zum Ziel vorschieben (W, S) und drehen (A, D) oder den Autopiloten steuern lassen: Von da an läuft die Zeit.
 trial-feed = Den Draht zum Ziel vorschieben (W, S) und drehen (A, D) oder den Autopiloten steuern lassen.
 # The same where a finger points: by the pads under the thumbs.

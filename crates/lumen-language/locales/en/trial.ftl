@@ -60,7 +60,7 @@ trial-paused = Paused.
 trial-looped = The wire has turned back on itself: withdraw.
 trial-wrong-branch = Wrong branch: withdraw and roll.
 trial-behind = The machine is behind: the trial runs slower than time.
-# What it is doing is one of the three that follow, in English and French with a small first letter.
+# What it is doing is one of those that follow, in English and French with a small first letter.
 trial-steers = Autopilot: { $doing }.
 # W, S, A, D are keys.
 trial-feed-first = Feed (W, S) and roll (A, D) the wire to the target, or let the autopilot steer: time runs from then on.

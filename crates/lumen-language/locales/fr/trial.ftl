@@ -62,6 +62,7 @@ trial-doing-following = suit le trajet
 trial-doing-again = nouvel essai, tourné
 trial-doing-withdrawing = retrait
 trial-doing-exchanging = retrait du guide pour en prendre un autre
+trial-doing-looking-ahead = simulation d'avance, essai { $attempt } sur { $attempts }
 trial-feed-first = Avancer (W, S) et tourner (A, D) le guide jusqu'à la cible, ou laisser faire l'autopilote : le temps court à partir de là.
 trial-feed = Avancer (W, S) et tourner (A, D) le guide jusqu'à la cible, ou laisser faire l'autopilote.
 # The same where a finger points: by the pads under the thumbs.

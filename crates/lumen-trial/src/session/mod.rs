@@ -1,5 +1,6 @@
 //! A trial: a wire on its way through a vessel, what it is told, and what is measured of it.
 
+mod look_ahead;
 mod shown;
 
 use std::sync::Arc;
@@ -7,6 +8,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use web_time::Instant;
 
+use self::look_ahead::{Found, LookAhead};
 use super::STEP;
 use super::autopilot::{Autopilot, AutopilotTask, BACK as WITHDRAWAL, DECISION, FEED, Seen};
 use super::course::{Course, TrialError};
@@ -70,6 +72,10 @@ struct State {
 ///
 /// Where the autopilot has tried all it knows at a place, or its time is over, and the setup has another wire, it takes the
 /// wire out and goes on with that one from the entry. The steps that this takes are steps of the trial.
+///
+/// Where it withdraws the wire again at a place, the trial stands still and looks ahead: what it would try is simulated,
+/// attempt by attempt, on a copy. The first that gets past is then made; where nothing does, the wire is taken out for
+/// another, or, if there is none, what would be tried is tried. The log has what was done alone.
 #[derive(Debug)]
 pub struct Trial {
     course: Arc<Course>,
@@ -85,6 +91,10 @@ pub struct Trial {
     /// Input to be replayed: from which step on, and what; and the steps of it all.
     replay: Option<(Vec<Command>, u64)>,
     limit_s: f64,
+    /// While it looks ahead.
+    ahead: Option<Box<LookAhead>>,
+    /// Whether it looks ahead: what is simulated for that does not.
+    looks_ahead: bool,
 }
 
 impl Trial {
@@ -127,6 +137,8 @@ impl Trial {
             wanted: Input::default(),
             replay: None,
             limit_s,
+            ahead: None,
+            looks_ahead: true,
         };
         trial.look();
         trial.mark();
@@ -207,6 +219,7 @@ impl Trial {
     /// Steers by itself from the next row of the log on, or no longer.
     pub fn set_autopilot(&mut self, on: bool) {
         self.is_steered = on;
+        self.ahead = None;
         // What a hand has done since then may have helped.
         self.state.leaving = None;
         self.wanted = Input::default();
@@ -217,8 +230,17 @@ impl Trial {
         self.wanted = input.limited();
     }
 
+    /// Whether it stands still and looks ahead. Until it has, a step is one of what is simulated for that.
+    pub fn is_looking_ahead(&self) -> bool {
+        self.ahead.as_ref().is_some_and(|ahead| ahead.found().is_none())
+    }
+
     /// One step of [`STEP`] seconds; nothing once it is over.
     pub fn step(&mut self) {
+        if let Some(ahead) = self.ahead.as_mut().filter(|ahead| ahead.found().is_none()) {
+            ahead.step(&self.state);
+            return;
+        }
         let steps = self.state.simulation.steps();
         if self.replay.as_ref().is_some_and(|&(_, all)| steps >= all) && self.state.progress == Progress::Running {
             self.state.progress = Progress::Over;
@@ -226,7 +248,7 @@ impl Trial {
         if steps.is_multiple_of(ROW_STEPS) && self.state.progress == Progress::Running {
             self.decide(steps);
         }
-        if self.state.progress != Progress::Running {
+        if self.state.progress != Progress::Running || self.ahead.is_some() {
             return;
         }
         let start = Instant::now();
@@ -284,6 +306,7 @@ impl Trial {
             self.state = mark.clone();
             self.stopwatch.keep(self.state.simulation.steps() as usize);
             self.wanted = Input::default();
+            self.ahead = None;
             self.log.rows.truncate(self.state.rows);
         }
     }
@@ -309,6 +332,9 @@ impl Trial {
             self.state.input = command.map_or(Input::default(), |command| command.input);
         } else if self.is_steered {
             self.steer();
+            if self.ahead.is_some() {
+                return;
+            }
         } else {
             self.state.input = self.wanted;
         }
@@ -333,10 +359,27 @@ impl Trial {
             return;
         }
         let seen = self.seen();
-        let input = self.state.autopilot.decide(&self.course.route, &seen);
-        self.state.meter.retractions = self.state.retractions + self.state.autopilot.retractions;
+        let mut autopilot = self.state.autopilot.clone();
+        let found = self.ahead.take().and_then(|ahead| {
+            self.state.meter.looked_ahead += ahead.steps();
+            ahead.found()
+        });
+        if let Some(found) = found {
+            autopilot.looked_ahead(found.attempt());
+        }
+        let input = autopilot.decide(&self.course.route, &seen);
         let is_late = self.state.steered as f64 * STEP > self.limit_s;
-        let has_failed = is_late || input.is_none() || self.state.autopilot.has_failed_at_a_place();
+        if self.looks_ahead
+            && !is_late
+            && let Some(place) = autopilot.failed_again_since(&self.state.autopilot)
+        {
+            self.ahead = Some(Box::new(LookAhead::new(self, &autopilot, place)));
+            return;
+        }
+        self.state.autopilot = autopilot;
+        self.state.meter.retractions = self.state.retractions + self.state.autopilot.retractions;
+        let is_in_vain = found == Some(Found::Nothing);
+        let has_failed = is_late || input.is_none() || is_in_vain || self.state.autopilot.has_failed_at_a_place();
         match input {
             _ if has_failed && self.next_that_fits().is_some() => self.state.leaving = Some(0),
             _ if is_late => self.state.progress = Progress::TimedOut,
@@ -353,7 +396,11 @@ impl Trial {
 
     /// What the autopilot is doing.
     fn task(&self) -> AutopilotTask {
-        if self.state.leaving.is_some() { AutopilotTask::Exchanging } else { self.state.autopilot.task() }
+        match &self.ahead {
+            Some(ahead) => ahead.task(),
+            None if self.state.leaving.is_some() => AutopilotTask::Exchanging,
+            None => self.state.autopilot.task(),
+        }
     }
 
     /// Takes out the wire that is in, and puts another at the entry. Says whether it fits there; if not, nothing changes.
