@@ -315,6 +315,17 @@ mod tests {
     }
 
     #[test]
+    fn a_tree_of_the_heart_or_the_brain_keeps_its_unit() {
+        // Arteries of 2.4 and 1.6 mm, a tree of 100 mm and one of 60; an aorta of 12 mm in cm is no longer than 45.
+        for (radius, length, is_told) in [(1.2, 100.0, false), (0.8, 60.0, false), (0.6, 45.0, true)] {
+            let part = tube(32, 120, length, |_| radius);
+            let raw = RawSurface::new("tube", part.positions, part.triangles);
+            let report = import(raw, Unit::Millimetre, Axes::Unknown).unwrap().report;
+            assert_eq!(report.unusual_size().is_some(), is_told, "{radius} {length}");
+        }
+    }
+
+    #[test]
     fn two_places_stay_two_where_the_change_of_unit_rounds_them_to_one() {
         let near = (0..10_000).map(|i| 1.7 + i as f32 * f32::EPSILON).find(|x| x * 10.0 == x.next_up() * 10.0);
         let [one, other] = [near.unwrap(), near.unwrap().next_up()].map(|x| Vec3::new(x, 0.0, 0.0));
