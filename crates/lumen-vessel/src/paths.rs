@@ -29,6 +29,17 @@ const STICKS_OUT_LOOP: f32 = 1.0;
 /// One with an open end sticks out by this many of its end's radii.
 const STICKS_OUT_OPEN: f32 = 0.3;
 
+/// A way that has only balls of at most this part of its vessel's radius left has come into a branch. A vessel that divides
+/// goes on about as wide: by Murray's law in 8 vessels as thin as this.
+const MUCH_THINNER: f32 = 0.5;
+/// It counts from so many of the vessel's radii on: before that it narrows.
+const FUNNEL: f32 = 1.3;
+/// A ball is one of its vessel if its radius is at least this part of the vessel's.
+const AS_WIDE: f32 = 0.7;
+/// A branch leaves sideways if the cosine between the vessel and the branch is less: 45 degrees. What goes straight on is the
+/// vessel itself, narrowed, where no more of it is ahead.
+const SIDEWAYS: f32 = 0.7;
+
 /// Linked balls as compressed rows.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
@@ -151,8 +162,10 @@ impl Graph {
         let mut found = Skeleton::default();
         // Balls on the way to the tip of a bump: what else ends there is of the same.
         let mut is_bump = vec![false; count];
-        for &end in &order {
+        let mut next = 0;
+        while let Some(&end) = order.get(next) {
             if covering.owner[end as usize].is_some() {
+                next += 1;
                 continue;
             }
             let mut free = vec![end];
@@ -169,10 +182,11 @@ impl Graph {
             free.reverse();
             match met {
                 None if found.paths.is_empty() => {
+                    let free = self.to_end_of_vessel(&ways, free, &is_open);
                     covering.add(self, 0, &free);
                     found.paths.push(Path { parent: 0, joint: 0, balls: free });
                 }
-                None => {}
+                None => next += 1,
                 Some((parent, _)) => {
                     let first = self.balls[free[0] as usize];
                     let joint = self.nearest_of(&found.paths[parent].balls, &first);
@@ -193,9 +207,11 @@ impl Graph {
                             && self.is_tube(&free, mean.max(most))
                     };
                     if is_branch {
+                        let free = self.to_end_of_vessel(&ways, free, &is_open);
                         covering.add(self, found.paths.len(), &free);
                         found.paths.push(Path { parent, joint, balls: free });
                     } else {
+                        next += 1;
                         found.bumps += usize::from(free.iter().all(|&ball| !is_bump[ball as usize]));
                         free.iter().for_each(|&ball| is_bump[ball as usize] = true);
                     }
@@ -206,7 +222,93 @@ impl Graph {
     }
 }
 
+/// Where a way leaves its vessel for a much thinner one.
+struct Leaving {
+    /// The place of the vessel's last ball in the way.
+    last: usize,
+    /// Whether the thinner one goes off to the side.
+    is_sideways: bool,
+}
+
 impl Graph {
+    /// The tree's root, or where it is on a thin branch of the widest vessel, that vessel's end on the side of the branch.
+    pub fn wide_root(&self, tree: &Skeleton, is_open: impl Fn(&Ball) -> bool) -> Option<u32> {
+        let widest = |path: &Path| path.balls.iter().map(|&ball| self.balls[ball as usize].radius).fold(0.0, f32::max);
+        let widest = tree.paths.iter().map(|path| (widest(path), path));
+        let (_, vessel) = widest.reduce(|best, next| if next.0 > best.0 { next } else { best })?;
+        let (root, far) = (*tree.paths.first()?.balls.first()?, *vessel.balls.last()?);
+        let ways = self.ways(far);
+        let before = |&at: &u32| Some(ways.before[at as usize]).filter(|&before| before != NONE);
+        let mut way: Vec<u32> = std::iter::successors(Some(root), before).collect();
+        way.reverse();
+        self.to_end_of_vessel(&ways, way, is_open).last().copied()
+    }
+
+    /// A way, or where it leaves its vessel for a much thinner one, its part up to there with what of the vessel is ahead.
+    /// What is cut off is met again as a branch. Ways to open ends stay as they are.
+    fn to_end_of_vessel(&self, ways: &Ways, way: Vec<u32>, is_open: impl Fn(&Ball) -> bool) -> Vec<u32> {
+        let Some(Leaving { last, is_sideways }) = self.leaving(&way) else { return way };
+        let wide = self.balls[way[last] as usize];
+        // Ways from the root part and never meet, so that each ball is come to once.
+        let (mut end, mut pending) = (way[last], vec![way[last]]);
+        while let Some(at) = pending.pop() {
+            if (ways.length[at as usize], end) > (ways.length[end as usize], at) {
+                end = at;
+            }
+            let is_next = |next: u32| {
+                ways.before[next as usize] == at && self.balls[next as usize].radius >= AS_WIDE * wide.radius
+            };
+            pending.extend(self.links(at).iter().map(|link| link.0).filter(|&next| is_next(next)));
+        }
+        let tip = self.balls[end as usize];
+        let is_on_way = way.iter().any(|&ball| {
+            let ball = self.balls[ball as usize];
+            ball.centre.distance(tip.centre) <= ball.radius
+        });
+        let is_any_open = is_open(&tip) || way.last().is_some_and(|&ball| is_open(&self.balls[ball as usize]));
+        if is_any_open || (is_on_way && !is_sideways) {
+            return way;
+        }
+        let mut ahead = Vec::new();
+        while end != way[last] {
+            ahead.push(end);
+            end = ways.before[end as usize];
+        }
+        way[..=last].iter().copied().chain(ahead.into_iter().rev()).collect()
+    }
+
+    /// Where a way leaves its vessel for a much thinner one in which it ends.
+    fn leaving(&self, way: &[u32]) -> Option<Leaving> {
+        let ball = |place: usize| self.balls[way[place] as usize];
+        let apart = |a: usize, b: usize| ball(a).centre.distance(ball(b).centre);
+        // The widest of each place and those after it.
+        let mut widest = vec![0.0f32; way.len() + 1];
+        (0..way.len()).rev().for_each(|place| widest[place] = widest[place + 1].max(ball(place).radius));
+        let beyond =
+            |from: usize, radii: f32| (from..way.len()).find(|&to| apart(from, to) >= radii * ball(from).radius);
+        let leaves = |last: usize| {
+            let out = beyond(last, FUNNEL)?;
+            (widest[out] <= MUCH_THINNER * ball(last).radius).then_some((last, out))
+        };
+        let (last, out) = (0..way.len()).find_map(leaves)?;
+        let wide = ball(last).radius;
+        // With the ball at its end the vessel is as long as a branch has to be, and as wide over that length.
+        let mut length = 0.0;
+        let first = (0..last).rev().find(|&place| {
+            length += apart(place, place + 1);
+            length + wide >= 2.0 * DIAMETERS * wide
+        })?;
+        if way[first..last].iter().any(|&ball| self.balls[ball as usize].radius < AS_WIDE * wide) {
+            return None;
+        }
+        let before = (first..last).rev().find(|&place| apart(place, last) >= wide).unwrap_or(first);
+        let leaving = if out + 1 < way.len() { out } else { last };
+        let away = ball(beyond(leaving, 1.0).unwrap_or(way.len() - 1)).centre - ball(leaving).centre;
+        let along = ball(last).centre - ball(before).centre;
+        let is_sideways = along.normalize_or_zero().dot(away.normalize_or_zero()) < SIDEWAYS;
+        Some(Leaving { last, is_sideways })
+    }
+
     /// Whether one of the balls, which come out of `trunk`, is linked with one whose own way is from elsewhere.
     fn closes_loop(&self, ways: &Ways, owner: &[Option<(usize, usize)>], balls: &[u32], trunk: &Ball) -> bool {
         let comes_from_elsewhere = |&(mut at, ..): &(u32, f32, f64)| {

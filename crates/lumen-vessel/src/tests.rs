@@ -121,3 +121,64 @@ fn open_ends_without_a_branch_are_counted() {
     let tree = Tree::new(&mesh).unwrap();
     assert_eq!((tree.branches().len(), tree.openings_without_branch()), (1, 1));
 }
+
+/// Flat at both ends.
+fn in_cylinder(p: DVec3, start: DVec3, end: DVec3, radius: f64) -> f64 {
+    let axis = (end - start).normalize();
+    let along = (p - start).dot(axis);
+    let across = (p - start).reject_from_normalized(axis).length();
+    (radius - across).min(along).min(start.distance(end) - along)
+}
+
+/// A vessel along z of 6 mm across and 60 mm long, with thin branches to the side: how high each is, its radius, and how far
+/// from the axis it reaches.
+fn with_thin_branches(all: &[[f64; 3]]) -> TriMesh {
+    isosurface(DVec3::new(-4.0, -4.0, -1.0), DVec3::new(24.0, 4.0, 61.0), 0.4, |p| {
+        let branch =
+            |&[z, radius, reach]: &[f64; 3]| in_cylinder(p, DVec3::new(0.0, 0.0, z), DVec3::new(reach, 0.0, z), radius);
+        all.iter().map(branch).fold(in_cylinder(p, DVec3::ZERO, DVec3::Z * 60.0, 3.0), f64::max)
+    })
+}
+
+/// The radii of the vessels at the free ends of a tree, the widest first.
+fn widths_at_ends(mesh: &TriMesh) -> Vec<f64> {
+    let tree = Tree::new(mesh).unwrap();
+    let widest_near = |places: &[Place], tip: Place| {
+        let near = places.iter().filter(|place| place.at.distance(tip.at) < 2.0 * tip.radius);
+        near.map(|place| place.radius).fold(0.0, f64::max)
+    };
+    let mut widths = Vec::new();
+    for branch in tree.branches() {
+        let tips = [branch.points[0], branch.points[branch.points.len() - 1]];
+        let free = tips.into_iter().zip(branch.ends).filter(|(_, end)| *end != End::Joint);
+        widths.extend(free.map(|(tip, _)| widest_near(&branch.points, tip)));
+    }
+    widths.sort_by(|a, b| b.total_cmp(a));
+    widths
+}
+
+#[test]
+fn a_thin_branch_near_the_end_of_a_closed_vessel_leaves_its_end_in_the_tree() {
+    // In the cap, a radius from it, and up to less than two diameters.
+    for z in [2.0, 4.0, 8.0, 12.0] {
+        let widths = widths_at_ends(&with_thin_branches(&[[z, 1.0, 22.0]]));
+        assert_eq!(widths.len(), 3, "{z} mm: {widths:?}");
+        assert!(widths[1] > 2.7 && widths[2] < 1.2, "{z} mm: {widths:?}");
+    }
+}
+
+#[test]
+fn thin_branches_near_both_ends_of_a_closed_vessel_leave_both_in_the_tree() {
+    let widths = widths_at_ends(&with_thin_branches(&[[3.0, 0.8, 12.0], [57.0, 0.8, 12.0]]));
+    assert_eq!(widths.len(), 4, "{widths:?}");
+    assert!(widths[1] > 2.7 && widths[2] < 1.2, "{widths:?}");
+}
+
+#[test]
+fn a_sac_that_is_wider_than_its_vessel_is_no_end_of_it() {
+    let sac = |p: DVec3| 8.0 - p.distance(DVec3::Y * 8.0);
+    let vessel = |p: DVec3| in_cylinder(p, DVec3::X * -24.0, DVec3::X * 24.0, 2.0);
+    let mesh = isosurface(DVec3::new(-25.0, -4.0, -9.0), DVec3::new(25.0, 19.0, 9.0), 0.5, |p| sac(p).max(vessel(p)));
+    let widths = widths_at_ends(&mesh);
+    assert!(widths.len() == 2 && widths[0] < 2.2, "{widths:?}");
+}

@@ -229,7 +229,12 @@ impl Tree {
     /// The paths of a group of balls, none of whose centrelines is there yet.
     fn group(&self, group: u32) -> Option<Group> {
         let root = self.root(group)?;
-        let Skeleton { paths, bumps } = self.graph.tree(root, |ball| self.is_open(ball));
+        let mut skeleton = self.graph.tree(root, |ball| self.is_open(ball));
+        let wide_root = self.graph.wide_root(&skeleton, |ball| self.is_open(ball))?;
+        if wide_root != root {
+            skeleton = self.graph.tree(wide_root, |ball| self.is_open(ball));
+        }
+        let Skeleton { paths, bumps } = skeleton;
         let cuts = vec![Vec::new(); paths.len()];
         Some(Group { number: group, paths, bumps, lines: Vec::new(), cuts, joints: Vec::new() })
     }
