@@ -437,8 +437,9 @@ fn the_unit_is_found_by_the_size_where_only_one_would_do() {
 
 #[test]
 fn every_command_that_takes_a_unit_finds_it() {
-    for command in ["centreline", "tables", "trial", "sweep"] {
-        let refused = lumen(&[command, "is-not-there.stl", "--unit", "auto"]);
+    let output = ["-o", "is-not-there.csv"].as_slice();
+    for (command, more) in [("centreline", output), ("tables", &[]), ("trial", &[]), ("sweep", &[])] {
+        let refused = lumen(&[&[command, "is-not-there.stl", "--unit", "auto"], more].concat());
         let error = String::from_utf8_lossy(&refused.stderr);
         assert!(error.contains("cannot read is-not-there.stl"), "{command}: {error}");
     }
