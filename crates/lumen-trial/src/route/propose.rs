@@ -127,7 +127,9 @@ impl Proposals for Tree {
                 direction: direction(&branch.points, at).as_vec3().to_array(),
             };
             let is_one = is_aorta(parent) && branch.ostium > 0 && 2.0 * place.radius <= GUIDED;
-            is_one.then_some((PlaceName::Ostium { branch: branch.id, diameter_mm: 2.0 * place.radius }, entry))
+            // Where walls cross each other, it may be outside of another vessel.
+            (is_one && self.is_inside(place.at.as_vec3()))
+                .then_some((PlaceName::Ostium { branch: branch.id, diameter_mm: 2.0 * place.radius }, entry))
         });
         found.collect()
     }
