@@ -45,6 +45,8 @@ pub(super) struct Schedule {
     /// The slots of the round, and the next one.
     round: Vec<u32>,
     next: usize,
+    /// The bits of each slot's key, then the slot.
+    sorted: Vec<u64>,
     pub(super) threshold: f32,
     /// Slots that are left.
     pub(super) alive: usize,
@@ -121,8 +123,13 @@ impl Schedule {
             return least < f32::INFINITY;
         }
         if self.round.len() <= FEW {
-            let keys = &self.keys;
-            self.round.sort_by(|&a, &b| keys[a as usize].total_cmp(&keys[b as usize]));
+            // By key, then by slot: the bits of keys that are not negative are in their order.
+            let bits = |slot: u32| u64::from(self.keys[slot as usize].max(0.0).to_bits());
+            self.sorted.clear();
+            self.sorted.extend(self.round.iter().map(|&slot| bits(slot) << 32 | u64::from(slot)));
+            self.sorted.sort_unstable();
+            self.round.clear();
+            self.round.extend(self.sorted.iter().map(|&keyed| keyed as u32));
         }
         self.threshold *= GROWTH;
         true

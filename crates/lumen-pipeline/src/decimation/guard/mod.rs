@@ -41,6 +41,8 @@ const TANGLED: usize = 64;
 const FIRST: usize = 8;
 /// A vertex beside one at which more triangles meet than this stays: each would have to be asked.
 const MAX_FAN: usize = 1 << 12;
+/// A leaf that overlaps more leaves than this counts as one that is crowded, whichever of them are one sheet with it.
+const MAX_SHEET: usize = 1 << 12;
 /// Slots, and leaves, that are worked on in one piece when a guard starts.
 const SLOTS: usize = 1 << 12;
 const LEAVES: usize = 1 << 9;
@@ -207,14 +209,12 @@ impl Guard {
         let mut near = std::mem::take(&mut self.near);
         near.clear();
         if self.is_closed {
-            self.tree
-                .leaves_near((patch.low, patch.high), &mut near, pairs::MAX_PAIRS, |_, other| patch.looks_as(other));
+            self.tree.leaves_near((patch.low, patch.high), &mut near, pairs::MAX_PAIRS, |other| patch.looks_as(other));
         } else {
-            self.sheet.spread(&self.tree, leaf, &patch);
-            let sheet = &self.sheet;
-            self.tree.leaves_near((patch.low, patch.high), &mut near, pairs::MAX_PAIRS, |other, _| {
-                other.is_some_and(|other| sheet.has_leaf(other))
-            });
+            self.tree.leaves_near((patch.low, patch.high), &mut near, MAX_SHEET, |_| false);
+            if near.len() <= MAX_SHEET {
+                self.sheet.strike_out(&self.tree, leaf, &patch, &mut near);
+            }
         }
         self.effort += near.len();
         self.pairs.add_leaf(&near);
@@ -243,10 +243,12 @@ impl Guard {
     fn find_later_pairs(&mut self, leaf: u32, patch: &Patch) {
         let mut near = std::mem::take(&mut self.near);
         near.clear();
-        self.tree.leaves_near((patch.low, patch.high), &mut near, usize::MAX, |_, _| false);
+        self.tree.leaves_near((patch.low, patch.high), &mut near, usize::MAX, |_| false);
         self.effort += near.len();
-        if !self.is_closed {
-            self.sheet.spread(&self.tree, leaf, patch);
+        if self.is_closed {
+            near.retain(|&other| !patch.looks_as(self.tree.leaf(other)));
+        } else {
+            self.sheet.strike_out(&self.tree, leaf, patch, &mut near);
         }
         let is_crowded = self.pairs.is_crowded(leaf);
         self.mark += 1;
@@ -254,9 +256,7 @@ impl Guard {
             self.pairs.of(leaf).for_each(|other| self.marks[other as usize] = self.mark);
         }
         for &other in &near {
-            let is_sheet =
-                if self.is_closed { patch.looks_as(self.tree.leaf(other)) } else { self.sheet.has_leaf(other) };
-            if is_sheet || self.marks[other as usize] == self.mark {
+            if self.marks[other as usize] == self.mark {
                 continue;
             }
             self.pairs.add(leaf, other);
@@ -312,7 +312,7 @@ impl Guard {
             (least.cmple(high) & most.cmpge(low)).all()
         };
         if self.pairs.is_crowded(leaf) {
-            self.tree.leaves_near((low, high), &mut near, MAX_NEAR, |_, _| false);
+            self.tree.leaves_near((low, high), &mut near, MAX_NEAR, |_| false);
             self.effort += near.len();
             if near.len() > MAX_NEAR {
                 self.near = near;
@@ -409,6 +409,14 @@ impl Guard {
     ) {
         self.found.clear();
         self.alike.clear();
+        self.mark += 1;
+        near.iter().for_each(|&leaf| self.marks[leaf as usize] = self.mark);
+        // Whether a triangle is found at this corner already.
+        let is_seen = |slot: u32, p: Vec3A| {
+            let leaf = self.leaves.of(slot);
+            let reach = Vec3A::splat(self.leaves.reaches[leaf as usize]);
+            self.marks[leaf as usize] == self.mark && !(p.cmpgt(high + reach) | p.cmplt(low - reach)).any()
+        };
         for &leaf in near {
             if self.found.len().max(self.alike.len()) > 4 * MAX_NEAR {
                 break;
@@ -427,7 +435,10 @@ impl Guard {
                 for b in ring {
                     let r = rings.at(b);
                     let apart = p.min(q).min(r).cmpgt(high) | p.max(q).max(r).cmplt(low);
-                    if !apart.any() && !planned.is_centre(a) && !planned.is_centre(b) {
+                    let is_new = !apart.any()
+                        && !(planned.is_centre(a) || a < s && is_seen(a, q))
+                        && !(planned.is_centre(b) || b < s && is_seen(b, r));
+                    if is_new {
                         if axis.is_none_or(|axis| !faces([p, q, r], axis)) {
                             self.found.push(turned([s, a, b]));
                         } else if !self.is_closed {
@@ -440,13 +451,10 @@ impl Guard {
         }
         if let Some(axis) = axis.filter(|_| !self.alike.is_empty()) {
             self.alike.sort_unstable();
-            self.alike.dedup();
-            let of: Vec<u32> = planned.centres().collect();
-            self.sheet.follow(rings, &of, axis, (low, high), &mut self.alike);
+            let of = [planned.v, if planned.other.is_some() { planned.u } else { planned.v }];
+            self.sheet.follow(rings, of, axis, (low, high), &mut self.alike);
             self.found.append(&mut self.alike);
         }
-        self.found.sort_unstable();
-        self.found.dedup();
     }
 }
 

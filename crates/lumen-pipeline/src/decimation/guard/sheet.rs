@@ -17,8 +17,8 @@ const MAX_LEAVES: usize = 64;
 /// Walks over sheets.
 #[derive(Default)]
 pub(super) struct Sheet {
-    /// For each leaf the last walk that came by: twice its number where the leaf is part of the sheet, one more where
-    /// not.
+    /// For each leaf the last walk that asked for it: its number until it comes by, one more where the leaf is part of the
+    /// sheet.
     marks: Vec<u32>,
     walk: u32,
     /// The leaves beside each leaf: `beside[offsets[leaf]..offsets[leaf + 1]]`.
@@ -27,6 +27,8 @@ pub(super) struct Sheet {
     queue: Vec<u32>,
     /// The triangles of a sheet around a collapse, and the corner of each beyond the side that led there.
     triangles: Vec<([u32; 3], u32)>,
+    /// Which of the triangles that look alike are not on it.
+    kept: Vec<bool>,
 }
 
 impl Sheet {
@@ -54,36 +56,34 @@ impl Sheet {
         self.marks.push(0);
     }
 
-    /// Finds the leaves that are one sheet with `leaf`, whose patch is `patch`: those that look the same way, be it within
-    /// its box, and that it hangs together with by such leaves. [`Self::has_leaf`] knows them until the next walk.
-    pub(super) fn spread(&mut self, tree: &Tree, leaf: u32, patch: &Patch) {
-        self.walk += 2;
+    /// Strikes out of `near`, the leaves that overlap the box of `patch`, those that are one sheet with `leaf`, whose patch it
+    /// is: those that look the same way, and that it hangs together with by such leaves.
+    pub(super) fn strike_out(&mut self, tree: &Tree, leaf: u32, patch: &Patch, near: &mut Vec<u32>) {
         if !patch.is_one_sided() {
             return;
         }
-        self.marks[leaf as usize] = self.walk;
+        self.walk += 2;
+        near.iter().for_each(|&other| self.marks[other as usize] = self.walk);
+        let mut left = near.len() - usize::from(self.marks[leaf as usize] == self.walk);
+        self.marks[leaf as usize] = self.walk + 1;
         self.queue.clear();
         self.queue.push(leaf);
-        while let Some(at) = self.queue.pop() {
+        while let Some(at) = self.queue.pop().filter(|_| left > 0) {
             for &next in &self.beside[self.offsets[at as usize] as usize..self.offsets[at as usize + 1] as usize] {
                 let mark = &mut self.marks[next as usize];
-                if *mark >= self.walk {
+                if *mark != self.walk {
                     continue;
                 }
-                let other = tree.leaf(next);
-                if other.overlaps(patch.low, patch.high) && patch.looks_as(other) {
-                    *mark = self.walk;
+                left -= 1;
+                if patch.looks_as(tree.leaf(next)) {
+                    *mark = self.walk + 1;
                     self.queue.push(next);
                 } else {
-                    *mark = self.walk + 1;
+                    *mark = 0;
                 }
             }
         }
-    }
-
-    /// Whether the last walk found `leaf` to be part of the sheet.
-    pub(super) fn has_leaf(&self, leaf: u32) -> bool {
-        self.marks[leaf as usize] == self.walk
+        near.retain(|&other| self.marks[other as usize] != self.walk + 1);
     }
 
     /// Strikes out of `alike`, ascending triangles with their least corner first, those of the sheet around a collapse: what
@@ -91,62 +91,81 @@ impl Sheet {
     pub(super) fn follow(
         &mut self,
         rings: &Rings,
-        of: &[u32],
+        of: [u32; 2],
         axis: Vec3A,
         corners: (Vec3A, Vec3A),
         alike: &mut Vec<[u32; 3]>,
     ) {
         self.triangles.clear();
-        for &v in of {
-            for side in rings.pairs(v) {
-                self.step(rings, of, side, axis, corners, alike);
+        self.kept.clear();
+        self.kept.resize(alike.len(), true);
+        let mut walk = Walk { rings, of, axis, corners, alike, left: alike.len(), bits: 0 };
+        let [v, u] = of;
+        for centre in [Some(v), (u != v).then_some(u)].into_iter().flatten() {
+            for side in rings.pairs(centre) {
+                walk.step(side, &mut self.triangles, &mut self.kept);
             }
         }
         let mut at = 0;
-        while at < self.triangles.len() && self.triangles.len() < MAX_LEAVES && !alike.is_empty() {
+        while at < self.triangles.len() && self.triangles.len() < MAX_LEAVES && walk.left > 0 {
             let ([a, b, c], apex) = self.triangles[at];
             at += 1;
             // The third side is the one that led here.
             for side in [[a, b], [b, c], [c, a]].into_iter().filter(|side| side.contains(&apex)) {
-                self.step(rings, of, side, axis, corners, alike);
+                walk.step(side, &mut self.triangles, &mut self.kept);
             }
         }
+        let mut kept = self.kept.iter();
+        alike.retain(|_| kept.next() == Some(&true));
     }
+}
 
-    /// Adds the triangle beyond a side, if it is part of the sheet.
-    fn step(
-        &mut self,
-        rings: &Rings,
-        of: &[u32],
-        [a, b]: [u32; 2],
-        axis: Vec3A,
-        (low, high): (Vec3A, Vec3A),
-        alike: &mut Vec<[u32; 3]>,
-    ) {
+/// A walk over the sheet around a collapse.
+struct Walk<'a> {
+    rings: &'a Rings,
+    of: [u32; 2],
+    axis: Vec3A,
+    corners: (Vec3A, Vec3A),
+    alike: &'a [[u32; 3]],
+    /// How many of `alike` it has not come by.
+    left: usize,
+    /// A bit for each triangle that it came by, others may have the same.
+    bits: u64,
+}
+
+impl Walk<'_> {
+    /// Adds the triangle beyond a side to `known`, if it is part of the sheet, and strikes it out of those kept.
+    fn step(&mut self, [a, b]: [u32; 2], known: &mut Vec<([u32; 3], u32)>, kept: &mut [bool]) {
         // It runs from b to a.
-        let ring = rings.around(a);
+        let ring = self.rings.around(a);
         let Some(at) = ring.iter().position(|&entry| neighbour(entry) == b) else { return };
-        let before = if at > 0 { ring.get(at - 1) } else { ring.last().filter(|_| !rings.is_open(a)) };
+        let before = if at > 0 { ring.get(at - 1) } else { ring.last().filter(|_| !self.rings.is_open(a)) };
         let Some(c) = before.map(|&entry| neighbour(entry)) else { return };
-        if of.contains(&a) || of.contains(&b) || of.contains(&c) {
-            return;
-        }
-        let [p, q, r] = [a, c, b].map(|s| rings.at(s));
-        let apart = p.min(q).min(r).cmpgt(high) | p.max(q).max(r).cmplt(low);
-        if apart.any() || !faces([p, q, r], axis) {
+        if [a, b, c].iter().any(|corner| self.of.contains(corner)) {
             return;
         }
         let triangle = turned([a, c, b]);
-        if !self.triangles.iter().any(|&(known, _)| known == triangle) {
-            self.triangles.push((triangle, c));
-            if let Ok(found) = alike.binary_search(&triangle) {
-                alike.remove(found);
-            }
+        let bit = 1 << ((a ^ b ^ c) & 63);
+        if self.bits & bit != 0 && known.iter().any(|&(other, _)| other == triangle) {
+            return;
+        }
+        let [p, q, r] = [a, c, b].map(|s| self.rings.at(s));
+        let (low, high) = self.corners;
+        let apart = p.min(q).min(r).cmpgt(high) | p.max(q).max(r).cmplt(low);
+        if apart.any() || !faces([p, q, r], self.axis) {
+            return;
+        }
+        self.bits |= bit;
+        known.push((triangle, c));
+        if let Ok(found) = self.alike.binary_search(&triangle) {
+            kept[found] = false;
+            self.left -= 1;
         }
     }
 }
 
 /// Whether a triangle looks the way of `axis`.
+#[inline]
 pub(super) fn faces([p, q, r]: [Vec3A; 3], axis: Vec3A) -> bool {
     let normal = (q - p).cross(r - p);
     normal.dot(axis) > FACING * normal.length()

@@ -131,14 +131,14 @@ fn the_sheet_around_a_vertex_is_its_own_piece_as_far_as_it_looks_the_same_way() 
     all.dedup();
     let mut sheet = Sheet::default();
     let mut rest = all.clone();
-    sheet.follow(&rings, &[v], Vec3A::Z, (low, high), &mut rest);
+    sheet.follow(&rings, [v, v], Vec3A::Z, (low, high), &mut rest);
     let found: Vec<[u32; 3]> = all.iter().filter(|triangle| !rest.contains(triangle)).copied().collect();
     assert!(found.len() > 60);
     assert!(found.iter().flatten().all(|&slot| rings.nodes[slot as usize] < 49));
     assert!(found.iter().all(|triangle| !triangle.contains(&v)));
     // Seen from below, nothing is of the sheet.
     let mut rest = found.clone();
-    sheet.follow(&rings, &[v], Vec3A::NEG_Z, (low, high), &mut rest);
+    sheet.follow(&rings, [v, v], Vec3A::NEG_Z, (low, high), &mut rest);
     assert_eq!(rest, found);
 }
 

@@ -295,13 +295,13 @@ impl Tree {
     }
 
     /// Adds to `near` the leaves whose boxes overlap one, without the branches and leaves that `is_out` says are of no
-    /// use; it is given the number of a leaf. Ends as soon as there are more than `most`.
+    /// use. Ends as soon as there are more than `most`.
     pub(super) fn leaves_near(
         &mut self,
         (low, high): (Vec3A, Vec3A),
         near: &mut Vec<u32>,
         most: usize,
-        is_out: impl Fn(Option<u32>, &Patch) -> bool,
+        is_out: impl Fn(&Patch) -> bool,
     ) {
         self.stack.clear();
         self.stack.push((self.levels.len(), 0));
@@ -309,7 +309,7 @@ impl Tree {
             let below = &self.levels[level - 1];
             let first = at as usize * WIDTH;
             for (at, patch) in (first as u32..).zip(&below[first..below.len().min(first + WIDTH)]) {
-                if !patch.overlaps(low, high) || is_out((level == 1).then_some(at), patch) {
+                if !patch.overlaps(low, high) || is_out(patch) {
                     continue;
                 }
                 if level > 1 {
