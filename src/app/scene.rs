@@ -13,7 +13,7 @@ use super::window_texture::WindowTarget;
 use super::{arrays, classes};
 use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::normals::{Weighting, vertex_normals, vertex_normals_into};
-use crate::pipeline::settings::Keep;
+use crate::pipeline::settings::{Keep, Target};
 use crate::render::{
     Backdrop, Camera, Colour, ColourMap, Draw, Drawable, GpuSlice, GpuSurface, Look, Renderer, Style, SurfaceError,
     unique_edges,
@@ -22,6 +22,9 @@ use crate::render::{
 /// The two views, side by side, and what is revealed behind each.
 pub(super) const VIEWS: usize = 4;
 
+/// Triangles of a light picture.
+const LIGHT: usize = 20_000;
+
 /// What one view shows.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Picture {
@@ -29,6 +32,8 @@ pub(super) struct Picture {
     pub camera: Camera,
     /// Width and height in pixels.
     pub size: [u32; 2],
+    /// Of few triangles.
+    pub is_light: bool,
     /// How the surface is shown.
     pub look: Look,
     /// The theme's colours.
@@ -57,6 +62,9 @@ pub(super) struct Scene {
     queue: wgpu::Queue,
     renderer: Renderer,
     level: GpuSurface,
+    /// Fewer triangles of a large level, and of which it was made.
+    light: GpuSurface,
+    light_of: Option<(Revision, Colours)>,
     before: GpuSurface,
     left_out: GpuSurface,
     slices: Vec<(u64, GpuSlice)>,
@@ -85,6 +93,8 @@ impl Scene {
         Ok(Self {
             renderer: Renderer::new(&device, &queue),
             level: surface()?,
+            light: surface()?,
+            light_of: None,
             before: surface()?,
             left_out: surface()?,
             slices: Vec::new(),
@@ -143,6 +153,29 @@ impl Scene {
         }
         self.revision = new;
         Ok(())
+    }
+
+    /// Makes a coarser level of one that has more than [`LIGHT`] triangles; whether there is one.
+    fn follow_light(&mut self, document: &Document) -> Result<bool, SurfaceError> {
+        let (Some((_, levels)), Some(shown)) = (&document.levels, &document.shown) else { return Ok(false) };
+        if shown.level.triangles.len() <= LIGHT {
+            return Ok(false);
+        }
+        let of = (self.revision, self.scalars_of);
+        if self.light_of != Some(of) {
+            self.light_of = None;
+            let coarse = levels.level(Target::Triangles(LIGHT as u32));
+            let used = coarse.triangles.as_flattened().iter().max().map_or(0, |&last| last as usize + 1);
+            let positions = &levels.positions[..used];
+            self.light.set_positions(&self.device, &self.queue, positions)?;
+            let normals = vertex_normals(positions, &coarse.triangles, Weighting::Area);
+            let edges = unique_edges(&coarse.triangles, used);
+            self.light.set_level(&self.device, &self.queue, &coarse.triangles, &edges, &normals)?;
+            let scalars = self.has_scalars.then(|| scalars(document, self.scalars_of)).flatten();
+            self.light.set_scalars(&self.device, &self.queue, scalars.as_deref().and_then(|all| all.get(..used)))?;
+            self.light_of = Some(of);
+        }
+        Ok(true)
     }
 
     /// Brings the slices in memory up to those that are shown.
@@ -214,6 +247,9 @@ impl Scene {
                 self.follow_left_out(document, keep)?;
             }
         }
+        let is_light = picture.is_light
+            && !picture.before
+            && document.map_or(Ok(false), |document| self.follow_light(document))?;
         let is_whole = picture.before && matches!(self.before_of, Some(Before::Whole(..)));
         let view = &mut self.views[index];
         let Some(target) = view.stale(
@@ -223,7 +259,11 @@ impl Scene {
         ) else {
             return Ok(view.id());
         };
-        let main = if picture.before { &self.before } else { &self.level };
+        let main = match picture {
+            _ if is_light => &self.light,
+            Picture { before: true, .. } => &self.before,
+            _ => &self.level,
+        };
         // Lines follow with the level: of a surface as it comes from a scan they are one white area.
         let look = if is_whole { Look::Shaded } else { picture.look };
         let main = Drawable { surface: main, look, tint: None };

@@ -1,6 +1,7 @@
 //! The two 3-D views: one camera, and what both show. What each of them draws and is written over it is in `picture`, how
-//! the camera is moved in `steering`.
+//! the camera is moved in `steering`, and when they draw less in `motion`.
 
+mod motion;
 mod picture;
 mod steering;
 
@@ -9,6 +10,7 @@ use std::sync::Arc;
 use egui::{Rect, Ui};
 use glam::Vec3;
 
+use self::motion::Motion;
 pub(super) use self::picture::legend;
 use super::action::Action;
 use super::collapses::Collapses;
@@ -125,6 +127,9 @@ pub struct Views {
     flies: bool,
     /// Frames a second while something moves.
     frames_per_second: Option<f32>,
+    motion: Motion<Revision>,
+    /// Whether pictures are light in this frame.
+    is_light: bool,
 }
 
 impl Views {
@@ -150,6 +155,8 @@ impl Views {
             flight: None,
             flies: false,
             frames_per_second: None,
+            motion: Motion::new(Camera::default()),
+            is_light: false,
         };
         views.options.occlusion = render_state.is_some_and(draws_fast);
         views.set_device(render_state);
@@ -322,6 +329,18 @@ impl Views {
         self.frames_per_second = moves.then(|| 1.0 / ui.input(|input| input.stable_dt).max(1e-3));
     }
 
+    /// Finds out whether pictures are to be light, and asks for the whole ones once the camera rests.
+    fn follow_motion(&mut self, ui: &Ui, document: Option<&Document>) {
+        let (now_s, expected_s) = ui.input(|input| (input.time, f64::from(input.predicted_dt)));
+        // Numbers of the level change nothing that is drawn.
+        let of = Revision { measured: 0, ..document.map(|document| document.revision).unwrap_or_default() };
+        let left_s = self.motion.follow(of, self.camera, now_s, expected_s);
+        self.is_light = left_s.is_some();
+        if let Some(left_s) = left_s {
+            ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(left_s));
+        }
+    }
+
     /// Takes the slices that are to be shown behind the surface.
     pub(super) fn take_slices(&mut self, scan: Option<&KeptScan>) {
         self.slices = scan.map(KeptScan::shown).unwrap_or_default();
@@ -341,6 +360,7 @@ impl Views {
         let Subject { document, keep, .. } = subject;
         let moves = ui.input(|input| input.pointer.any_down() || input.smooth_scroll_delta() != egui::Vec2::ZERO);
         self.measure_rate(ui, moves);
+        self.follow_motion(ui, document);
         self.retry(document);
         if self.scene.is_some() {
             // What fails is tried again.

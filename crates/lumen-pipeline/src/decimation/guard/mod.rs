@@ -435,10 +435,12 @@ impl Guard {
                 for b in ring {
                     let r = rings.at(b);
                     let apart = p.min(q).min(r).cmpgt(high) | p.max(q).max(r).cmplt(low);
-                    let is_new = !apart.any()
-                        && !(planned.is_centre(a) || a < s && is_seen(a, q))
-                        && !(planned.is_centre(b) || b < s && is_seen(b, r));
-                    if is_new {
+                    let is_out = apart.any()
+                        || planned.is_centre(a)
+                        || planned.is_centre(b)
+                        || a < s && is_seen(a, q)
+                        || b < s && is_seen(b, r);
+                    if !is_out {
                         if axis.is_none_or(|axis| !faces([p, q, r], axis)) {
                             self.found.push(turned([s, a, b]));
                         } else if !self.is_closed {
