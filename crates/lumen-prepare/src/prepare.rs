@@ -8,7 +8,7 @@ use super::check::{Fate, check};
 use super::cuts::{ClipAt, Cut, PlannedEnd, cut_at, planned};
 use super::ends::{EndPlane, Length, OpenEnd, check_surface, names, open_ends, planes_of_uneven_openings, unfold};
 use super::extend::{ExtendError, Extended, extend};
-use super::notes::{Note, PrepareError, Reason};
+use super::notes::{Note, PrepareError, Reason, grouped};
 use super::remesh::{Deviation, Quality, Remeshed, Sizing, remesh_in_slices};
 use super::uncross::{Uncrossed, uncross_in_slices};
 use super::wrap::wrap;
@@ -153,8 +153,9 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     if let Some(sizing) = &plan.remesh {
         let radii = radii(&surface, &yielder.part(0.55..0.65)).await;
         let part = yielder.part(0.65..0.9);
-        let Remeshed { surface: new, deviation, crossing, .. } =
-            remesh_in_slices(&surface, &radii, sizing, &part).await?;
+        let found = remesh_in_slices(&surface, &radii, sizing, &part).await?;
+        let deviation = found.deviation();
+        let Remeshed { surface: new, crossing, .. } = found;
         surface = new;
         // Where two walls are nearer than a triangle is long, new ones may cross.
         if plan.uncross && !crossing.is_empty() {
