@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::clip::{ClipError, Clipped, clip};
 use super::ends::{EndError, EndPlane, EndPlanes, Length, check_surface, free_ends, skeleton};
-use super::notes::{Note, PrepareError, Reason};
+use super::notes::{Note, PrepareError, Reason, grouped};
 use super::prepare::{Plan, vessel, wrapped};
 
 /// A place is that of an end at most so many of its radii away.
@@ -106,7 +106,7 @@ pub async fn cuts(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<Cuts
         }
     }
     let of_triangle = cut_off_by(&mesh, &from, &ends);
-    Ok(Cuts { mesh, ends, of_triangle, notes })
+    Ok(Cuts { mesh, ends, of_triangle, notes: grouped(notes) })
 }
 
 /// For each triangle 0 where it is among those that stay, or 1 more than the place of the end whose plane cuts it off: each

@@ -173,7 +173,7 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     let fate = check(&surface);
     // What was left is mended with the triangles that are made anew.
     let crossing = crossing.map(|before| [before, fate.crossing()]);
-    Ok(Prepared { surface, fate, notes, crossing, remeshed })
+    Ok(Prepared { surface, fate, notes: grouped(notes), crossing, remeshed })
 }
 
 /// The wrap of a surface, where one is asked for: of a wall that of its lumen, where that can be told.
@@ -184,7 +184,18 @@ pub(crate) async fn wrapped(
     yielder: &Yielder,
 ) -> Result<Option<TriMesh>, PrepareError> {
     let Some(tolerance_mm) = plan.wrap else { return Ok(None) };
-    let lumen = without_wall(split(mesh).mesh, notes, &yielder.part(0.0..0.1)).await.ok();
+    let mut told = Vec::new();
+    let lumen = match without_wall(split(mesh).mesh, &mut told, &yielder.part(0.0..0.1)).await {
+        Err(PrepareError::Wall { thickness_mm }) => {
+            told.push(Note::WrapWall { thickness_mm });
+            None
+        }
+        found => found.ok(),
+    };
+    notes.extend(told.into_iter().map(|note| match note {
+        Note::Lumen { thickness_mm } => Note::WrapLumen { thickness_mm },
+        note => note,
+    }));
     let part = yielder.part(0.1..1.0);
     wrap(lumen.as_ref().unwrap_or(mesh), tolerance_mm, plan.clips(), notes, &part).await.map(Some)
 }
