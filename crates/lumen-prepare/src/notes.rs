@@ -62,6 +62,8 @@ messages! {
         "solver-why-unsound" Unsound => "the surface is not in order there",
         /// The vessel does not go on there.
         "solver-why-sac" Sac => "it is a sac, wider than its neck",
+        /// No vessel is there.
+        "solver-why-spicule" Spicule => "it is a spike of a rough wall, and no vessel",
     }
 }
 
@@ -392,6 +394,7 @@ impl From<&EndError> for Reason {
             EndError::TooNearFork { room_mm, .. } => Self::Fork { room_mm: room_mm.max(0.0) },
             EndError::NotRound { .. } => Self::NotRound,
             EndError::Sac { .. } => Self::Sac,
+            EndError::Spicule { .. } => Self::Spicule,
             EndError::NoSection { .. } => Self::NoSection,
             _ => Self::Unsound,
         }

@@ -250,7 +250,9 @@ async fn clipped(
     // An end that is too near a fork for such a plane is cut just inside of its rim, where that is uneven.
     let is_asked = |plane: &EndPlane| {
         let far = |end: &&PlannedEnd| end.tip().distance_squared(plane.centre);
-        ends.iter().min_by(|a, b| far(a).total_cmp(&far(b))).is_none_or(|end| end.is_asked)
+        ends.iter()
+            .min_by(|a, b| far(a).total_cmp(&far(b)))
+            .is_none_or(|end| end.is_asked && end.why != Some(Reason::Spicule))
     };
     let mut planes = planes_of_uneven_openings(&mesh)?;
     planes.retain(is_asked);

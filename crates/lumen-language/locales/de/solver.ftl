@@ -176,6 +176,7 @@ solver-why-no-room = es ist kein Platz dafür
 solver-why-fine = seine Kanten sind zu kurz für seine Fläche
 solver-why-unsound = die Oberfläche ist dort nicht in Ordnung
 solver-why-sac = es ist ein Sack, weiter als sein Hals
+solver-why-spicule = es ist ein Stachel einer rauen Wand und kein Gefäß
 solver-error-empty = die Oberfläche hat keine Dreiecke
 solver-error-unsound = Zahlen der Oberfläche sind nicht endlich oder außerhalb des Bereichs
 solver-error-tree = kein Ende zu finden: { $why }

@@ -176,6 +176,7 @@ solver-why-no-room = il n'y a pas la place
 solver-why-fine = ses arêtes sont trop courtes pour son aire
 solver-why-unsound = la surface n'y est pas en ordre
 solver-why-sac = c'est un sac, plus large que son collet
+solver-why-spicule = c'est une pointe d'une paroi rugueuse et non un vaisseau
 solver-error-empty = la surface n'a aucun triangle
 solver-error-unsound = des nombres de la surface sont non finis ou hors limites
 solver-error-tree = aucune extrémité trouvée : { $why }
