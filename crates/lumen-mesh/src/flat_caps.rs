@@ -3,6 +3,10 @@
 //! A cap is a connected set of triangles in one plane whose rim is one loop with a crease that stands out everywhere, and
 //! behind which the vessel goes on: cut by planes half a radius and a whole radius further in, what is joined to the rim is
 //! as wide as the cap; and the rim is round. So neither the steps and ends of a voxel surface nor the faces of a box are caps. Caps that touch are none.
+//!
+//! A rim of few edges could be that of a facet or of the end of a mask's thin vessel. There the crease is nearly square in the
+//! mean, the rim rounder than a square, and the vessel behind it hardly wider or narrower: a mask's end stands back half a
+//! voxel from the wall around it, which is half as large again or more where the rim has fewer than a dozen edges.
 
 use glam::{DVec3, Vec3};
 
@@ -15,8 +19,17 @@ const FLAT: f64 = 0.999_390_827_019_095_8;
 const CREASE: f64 = 0.906_307_787_036_65;
 /// The part of the rim's length that has such a crease.
 const CREASED: f64 = 0.95;
-/// Vertices of the least rim. The ends of the thinnest vessels of a mask are flat and round, too: most have 6 to 10.
-const LEAST_RIM: usize = 12;
+/// Edges of the least rim.
+const LEAST_RIM: usize = 6;
+/// A rim of fewer edges is one of few. The ends of the thinnest vessels of a mask are flat and round, too: most have 6 to 10.
+const FEW: usize = 12;
+/// Cosine of the least mean crease of a rim of few edges: 65 degrees. That of a mask's end has 45 to 55 where voxels are cubes,
+/// that of a tube 90, however it is cut.
+const SQUARE: f64 = 0.422_618_261_740_699_4;
+/// 4 pi times the area over the squared length of a rim of few edges: 0.907 for a regular hexagon, 0.785 for a square.
+const ROUND: f64 = 0.82;
+/// By how much the vessel's section behind a rim of few edges may be smaller or larger than the cap.
+const WIDER_OF_FEW: f64 = 1.45;
 /// The bends of a rim sum up to at most so many full turns: those of a rim of voxels sum up to 2 and more.
 const TURNS: f64 = 1.6;
 /// How far in the vessel is cut, in radii of the cap.
@@ -176,7 +189,7 @@ impl<'a> Search<'a> {
         let corner = |v: u32| self.mesh.positions[v as usize].as_dvec3();
         let (mut area, mut moment, mut normal) = (0.0, DVec3::ZERO, DVec3::ZERO);
         let mut edges: Vec<[u32; 2]> = Vec::new();
-        let (mut length, mut creased) = (0.0, 0.0);
+        let (mut length, mut creased, mut cosines) = (0.0, 0.0, 0.0);
         for &t in region {
             let triangle = self.mesh.triangles[t as usize];
             let [a, b, c] = triangle.map(corner);
@@ -195,12 +208,18 @@ impl<'a> Search<'a> {
                 length += away;
                 let apex = self.mesh.triangles[other as usize].into_iter().find(|&v| v != from && v != to)?;
                 let is_behind = (corner(apex) - corner(from)).dot(self.normals[t as usize]) < 0.0;
-                if is_behind && self.normals[other as usize].dot(self.normals[t as usize]) < CREASE {
+                let cosine = self.normals[other as usize].dot(self.normals[t as usize]);
+                cosines += cosine * away;
+                if is_behind && cosine < CREASE {
                     creased += away;
                 }
             }
         }
         if edges.len() < LEAST_RIM || creased < CREASED * length || area <= 0.0 {
+            return None;
+        }
+        let is_round = 2.0 * std::f64::consts::TAU * area > ROUND * length * length;
+        if edges.len() < FEW && !(is_round && cosines < SQUARE * length) {
             return None;
         }
         let (centre, normal) = (moment / area, normal.normalize_or_zero());
@@ -224,6 +243,7 @@ impl<'a> Search<'a> {
     fn closes_a_vessel(&self, cap: &FlatCap) -> bool {
         let radius = cap.radius_mm();
         let deepest = DEPTHS[DEPTHS.len() - 1] * radius;
+        let wider = if cap.rim.len() < FEW { WIDER_OF_FEW } else { WIDER };
         let inwards = |v: u32| cap.centre - self.mesh.positions[v as usize].as_dvec3();
         let depth = |v: u32| inwards(v).dot(cap.normal);
         let aside = |v: u32| inwards(v).reject_from_normalized(cap.normal).length();
@@ -250,7 +270,7 @@ impl<'a> Search<'a> {
             let at = cap.centre - cap.normal * depth * radius;
             let outlines = cut(&self.mesh.positions, &wall, at, cap.normal);
             let largest = outlines.iter().map(|outline| outline.area(cap.normal)).fold(0.0, f64::max);
-            largest > cap.area_mm2 / WIDER && largest < cap.area_mm2 * WIDER
+            largest > cap.area_mm2 / wider && largest < cap.area_mm2 * wider
         })
     }
 }
@@ -280,7 +300,7 @@ fn rim(mut edges: Vec<[u32; 2]>) -> Option<Vec<u32>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shapes::{capped, icosphere, isosurface, tube};
+    use crate::shapes::{capped, close_by_fans, icosphere, isosurface, tube};
 
     fn found(mesh: &TriMesh) -> Vec<FlatCap> {
         flat_caps(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles))
@@ -288,7 +308,7 @@ mod tests {
 
     #[test]
     fn both_ends_of_a_closed_tube_are_caps_with_their_plane_and_area() {
-        for sides in [12, 24, 96] {
+        for sides in [6, 8, 10, 12, 24, 96] {
             let caps = found(&capped(sides, 30, 30.0, 2.0));
             let polygon = f64::from(sides) * 2.0 * (std::f64::consts::TAU / f64::from(sides)).sin();
             assert_eq!(caps.len(), 2, "{sides}");
@@ -296,6 +316,110 @@ mod tests {
                 assert_eq!((cap.rim.len(), cap.triangles.len()), (sides as usize, sides as usize));
                 assert!((cap.area_mm2 / polygon - 1.0).abs() < 1e-5 && cap.normal.z.abs() > 0.999_999, "{cap:?}");
                 assert!(cap.normal.z * (cap.centre.z - 15.0) > 0.0, "out of the vessel: {cap:?}");
+            }
+        }
+    }
+
+    /// A tube of 2 mm along z whose ends have no vertex within their rims.
+    fn planar(sides: u32, rings: u32, length: f32) -> TriMesh {
+        let mut mesh = tube(sides, rings, length, |_| 2.0);
+        for rim in crate::boundary_loops(&Topology::new(mesh.positions.len(), &mesh.triangles)) {
+            // From side to side, so that no vertex has many triangles.
+            let (mut first, mut last) = (0, rim.len() - 1);
+            while first + 1 < last {
+                let next = if (first + last) % 2 == 1 { first + 1 } else { last - 1 };
+                mesh.triangles.push([rim[first], rim[last], rim[next]]);
+                if next == first + 1 { first = next } else { last = next }
+            }
+        }
+        mesh
+    }
+
+    #[test]
+    fn ends_of_few_edges_are_caps_without_a_vertex_inside_and_where_they_lean() {
+        for sides in [6, 8, 10, 12] {
+            for lean in [0.0, 0.6] {
+                let mut mesh = planar(sides, 20, 20.0);
+                mesh.positions.iter_mut().for_each(|p| p.z += lean * p.x);
+                let caps = found(&mesh);
+                assert_eq!(caps.len(), 2, "{sides} {lean}");
+                let slope = f64::from(1.0 + lean * lean).sqrt();
+                let polygon = f64::from(sides) * 2.0 * (std::f64::consts::TAU / f64::from(sides)).sin() * slope;
+                for cap in &caps {
+                    assert_eq!((cap.rim.len(), cap.triangles.len()), (sides as usize, sides as usize - 2));
+                    assert!((cap.area_mm2 / polygon - 1.0).abs() < 1e-5, "{cap:?}");
+                }
+            }
+        }
+    }
+
+    /// The faces of the voxels of a grid that are inside, as squares of two triangles.
+    fn blocks(low: i32, high: i32, inside: impl Fn([i32; 3]) -> bool) -> TriMesh {
+        let (mut mesh, mut known) = (TriMesh::default(), std::collections::BTreeMap::new());
+        let range = || low..high;
+        for (x, y, z) in range().flat_map(|x| range().flat_map(move |y| range().map(move |z| (x, y, z)))) {
+            for (axis, side) in [0, 1, 2].into_iter().flat_map(|axis| [(axis, 0), (axis, 1)]) {
+                let mut beside = [x, y, z];
+                beside[axis] += 2 * side - 1;
+                if !inside([x, y, z]) || inside(beside) {
+                    continue;
+                }
+                let mut corner = |u: i32, v: i32| {
+                    let mut at = [x, y, z];
+                    at[axis] += side;
+                    at[(axis + 1) % 3] += u;
+                    at[(axis + 2) % 3] += v;
+                    *known.entry(at).or_insert_with(|| {
+                        mesh.positions.push(Vec3::from_array(at.map(|x| x as f32)));
+                        mesh.positions.len() as u32 - 1
+                    })
+                };
+                let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+                mesh.triangles.extend(if side == 1 { [[a, b, c], [a, c, d]] } else { [[a, c, b], [a, d, c]] });
+            }
+        }
+        mesh
+    }
+
+    #[test]
+    fn a_prism_has_caps_where_it_is_a_tube_and_other_coarse_solids_have_none() {
+        assert_eq!(found(&planar(6, 1, 4.0)).len(), 2);
+        let octahedron = {
+            let positions = [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|p| [p, -p]).collect();
+            let triangles =
+                vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
+            TriMesh { positions, triangles }
+        };
+        let ball = |[x, y, z]: [i32; 3]| x * x + y * y + z * z < 50;
+        let square = |[x, y, z]: [i32; 3]| (0..2).contains(&x) && (0..2).contains(&y) && z.abs() < 9;
+        let cube = |p: [i32; 3]| p.into_iter().all(|x| (0..2).contains(&x));
+        for (what, mesh) in [
+            ("cube", blocks(-1, 4, cube)),
+            ("icosahedron", icosphere(0, 2.0, Vec3::ZERO)),
+            ("octahedron", octahedron),
+            ("short prism", capped(6, 1, 0.5, 2.0)),
+            ("short prism without a middle", planar(6, 1, 0.5)),
+            ("ball of voxels", blocks(-9, 10, ball)),
+            ("vessel of two by two voxels", blocks(-10, 11, square)),
+        ] {
+            assert!(found(&mesh).is_empty(), "{what}");
+        }
+    }
+
+    #[test]
+    fn the_ends_of_a_masks_thin_vessels_are_no_caps() {
+        // Marching cubes leave the last slice's voxel centres, half a voxel in from the wall and half a slice out.
+        for (sides, voxels) in [(6, 1.2), (8, 1.5), (10, 2.0)] {
+            for slice in [0.7, 1.0, 1.7, 3.0] {
+                let length = 20.0 * slice;
+                let is_end = |z: f32| z < 0.1 * slice || z > length - 0.1 * slice;
+                let mut mesh = tube(sides, 40, length, |z| if is_end(z) { voxels } else { voxels + 0.5 });
+                close_by_fans(&mut mesh);
+                assert!(found(&mesh).is_empty(), "{sides} {slice}");
+                // The same without steps back is closed by caps.
+                let mut mesh = tube(sides, 40, length, |_| voxels);
+                close_by_fans(&mut mesh);
+                assert_eq!(found(&mesh).len(), 2, "{sides} {slice}");
             }
         }
     }

@@ -123,13 +123,20 @@ pub(super) struct Patch {
     corners: Vec<Corner>,
     /// By the hash of the vertex.
     table: Vec<Entry>,
+    /// The place in it of each corner.
+    places: Vec<u32>,
 }
 
 impl Patch {
     const FREE: Entry = Entry { vertex: u32::MAX, corner: u32::MAX };
 
     pub(super) fn new() -> Self {
-        Self { view: View::default(), corners: Vec::with_capacity(MAX_VERTICES), table: vec![Self::FREE; PLACES] }
+        Self {
+            view: View::default(),
+            corners: Vec::with_capacity(MAX_VERTICES),
+            table: vec![Self::FREE; PLACES],
+            places: Vec::with_capacity(MAX_VERTICES),
+        }
     }
 
     /// Whether none of `leaves`, whose extent is `extent`, runs into a triangle that [`Self::has`], for certain. They are
@@ -144,7 +151,8 @@ impl Patch {
     ) -> bool {
         let Some((view, first)) = View::of(leaves.clone(), extent).zip(leaves.clone().next()) else { return false };
         self.view = view;
-        self.table.fill(Self::FREE);
+        // A patch fills a small part of the table.
+        self.places.drain(..).for_each(|place| self.table[place as usize] = Self::FREE);
         self.corners.clear();
         let half = Vec2::new(view.half.x, view.half.y);
         let rounding = ROUNDING * view.half.max_element();
@@ -224,6 +232,7 @@ impl Patch {
         };
         let corner = self.corners.len();
         self.table[place] = Entry { vertex, corner: corner as u32 };
+        self.places.push(place as u32);
         let at = self.view.seen(positions[vertex as usize]).truncate();
         self.corners.push(Corner { vertex, at, is_inside: at.abs().cmple(reach).all() });
         corner

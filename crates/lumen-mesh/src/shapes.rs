@@ -102,6 +102,12 @@ pub fn tube(sides: u32, rings: u32, length: f32, radius: impl Fn(f32) -> f32) ->
 /// A [`tube`] of one radius with a fan of triangles in both ends.
 pub fn capped(sides: u32, rings: u32, length: f32, radius: f32) -> TriMesh {
     let mut mesh = tube(sides, rings, length, |_| radius);
+    close_by_fans(&mut mesh);
+    mesh
+}
+
+/// Closes each opening by triangles around the middle of its rim.
+pub fn close_by_fans(mesh: &mut TriMesh) {
     let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
     for rim in super::boundary_loops(&topology) {
         let middle: Vec3 = rim.iter().map(|&v| mesh.positions[v as usize]).sum::<Vec3>() / rim.len() as f32;
@@ -109,7 +115,6 @@ pub fn capped(sides: u32, rings: u32, length: f32, radius: f32) -> TriMesh {
         let apex = mesh.positions.len() as u32 - 1;
         mesh.triangles.extend((0..rim.len()).map(|i| [rim[(i + 1) % rim.len()], rim[i], apex]));
     }
-    mesh
 }
 
 /// Several surfaces as one, in their order.

@@ -9,6 +9,6 @@ fn main() -> Result<(), RemeshError> {
     let mesh = tube(60, 200, 40.0, radius);
     let radii: Vec<f32> = mesh.positions.iter().map(|p| radius(p.z)).collect();
     let found = remesh(&Patched::wall(mesh), &radii, &Sizing::default())?;
-    println!("{} triangles, {:?}, {:?}", found.surface.mesh.triangles.len(), found.quality, found.deviation);
+    println!("{} triangles, {:?}, {:?}", found.surface.mesh.triangles.len(), found.quality(), found.deviation());
     Ok(())
 }

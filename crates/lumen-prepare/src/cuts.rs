@@ -7,8 +7,8 @@ use lumen_vessel::{Branch, End, Place};
 use serde::{Deserialize, Serialize};
 
 use super::clip::{ClipError, Clipped, clip};
-use super::ends::{EndError, EndPlane, EndPlanes, Length, check_surface, free_ends, skeleton};
-use super::notes::{Note, PrepareError, Reason};
+use super::ends::{EndError, EndPlane, EndPlanes, Length, check_surface, free_ends, is_spicule, skeleton};
+use super::notes::{Note, PrepareError, Reason, grouped};
 use super::prepare::{Plan, vessel, wrapped};
 
 /// A place is that of an end at most so many of its radii away.
@@ -106,7 +106,7 @@ pub async fn cuts(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<Cuts
         }
     }
     let of_triangle = cut_off_by(&mesh, &from, &ends);
-    Ok(Cuts { mesh, ends, of_triangle, notes })
+    Ok(Cuts { mesh, ends, of_triangle, notes: grouped(notes) })
 }
 
 /// For each triangle 0 where it is among those that stay, or 1 more than the place of the end whose plane cuts it off: each
@@ -144,7 +144,8 @@ pub(crate) async fn planned(
     let planes = EndPlanes::new(mesh, &tree)?;
     yielder.rest(0.9).await;
     let free: Vec<_> = free_ends(&tree).collect();
-    let caps = flat_caps(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    let caps = flat_caps(mesh, &topology);
     let ways: Vec<Vec<Place>> = free.iter().map(|&(branch, at_end)| planes.way(branch, at_end)).collect();
     let mut cut_of = vec![None; free.len()];
     let mut strays = Vec::new();
@@ -162,9 +163,11 @@ pub(crate) async fn planned(
     for (i, ((branch, at_end), way)) in free.into_iter().zip(ways).enumerate() {
         let at = cut_of[i].map_or(plan.clip, |cut: usize| plan.cuts[cut].at);
         let is_sac = cut_of[i].is_none() && caps.len() >= MODEL && is_sac(branch, at_end, &caps);
+        let is_spicule = || cut_of[i].is_none() && at_end && is_spicule(mesh, &topology, &tree, branch);
         let found = match at {
             None => None,
             Some(_) if is_sac => Some(Err(EndError::Sac { branch: branch.id })),
+            Some(_) if is_spicule() => Some(Err(EndError::Spicule { branch: branch.id })),
             Some(ClipAt::Round) => Some(planes.round(branch, at_end)),
             Some(ClipAt::Distance(distance)) => Some(planes.at(branch, at_end, distance)),
         };

@@ -39,6 +39,20 @@ pub(crate) fn clashing_in(mesh: &TriMesh, index: &SurfaceIndex, topology: &Topol
     all_of(self_intersections_in(mesh, index, Some(topology)), &folds_in(mesh, topology))
 }
 
+/// Those of `triangles`, a few of a surface whose edges have two triangles at most, that [`clashing_in`] finds, in their order.
+pub(crate) fn clashing_of(mesh: &TriMesh, index: &SurfaceIndex, mut triangles: Vec<u32>) -> Vec<u32> {
+    let face = |t: u32| Face { vertices: mesh.triangles[t as usize], corners: mesh.corners(t as usize) };
+    triangles.retain(|&t| {
+        let [a, b, c] = mesh.corners(t as usize);
+        let mut does = false;
+        index.for_each_near(a.min(b).min(c), a.max(b).max(c), |other| {
+            does = does || (other != t && clash(&face(t.min(other)), &face(t.max(other))));
+        });
+        does
+    });
+    triangles
+}
+
 fn all_of(mut all: Vec<u32>, folds: &[[u32; 2]]) -> Vec<u32> {
     all.extend(folds.as_flattened());
     all.sort_unstable();
@@ -107,6 +121,9 @@ pub(crate) mod tests {
             }
         }
         let folded = folded_box();
+        let index = SurfaceIndex::new(&folded.positions, &folded.triangles);
+        let all = (0..folded.triangles.len() as u32).collect();
+        assert_eq!(clashing_of(&folded, &index, all), clashing(&folded));
         assert!(self_intersections(&folded).is_empty());
         assert_eq!(folds(&folded).len(), 3, "a triangle that is turned over lies on all its neighbours");
         // Flat is the opposite of folded.

@@ -8,7 +8,7 @@ use super::check::{Fate, check};
 use super::cuts::{ClipAt, Cut, PlannedEnd, cut_at, planned};
 use super::ends::{EndPlane, Length, OpenEnd, check_surface, names, open_ends, planes_of_uneven_openings, unfold};
 use super::extend::{ExtendError, Extended, extend};
-use super::notes::{Note, PrepareError, Reason};
+use super::notes::{Note, PrepareError, Reason, grouped};
 use super::remesh::{Deviation, Quality, Remeshed, Sizing, remesh_in_slices};
 use super::uncross::{Uncrossed, uncross_in_slices};
 use super::wrap::wrap;
@@ -153,8 +153,9 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     if let Some(sizing) = &plan.remesh {
         let radii = radii(&surface, &yielder.part(0.55..0.65)).await;
         let part = yielder.part(0.65..0.9);
-        let Remeshed { surface: new, deviation, crossing, .. } =
-            remesh_in_slices(&surface, &radii, sizing, &part).await?;
+        let found = remesh_in_slices(&surface, &radii, sizing, &part).await?;
+        let deviation = found.deviation();
+        let Remeshed { surface: new, crossing, .. } = found;
         surface = new;
         // Where two walls are nearer than a triangle is long, new ones may cross.
         if plan.uncross && !crossing.is_empty() {
@@ -172,7 +173,7 @@ pub async fn prepare(mesh: &TriMesh, plan: &Plan, yielder: &Yielder) -> Result<P
     let fate = check(&surface);
     // What was left is mended with the triangles that are made anew.
     let crossing = crossing.map(|before| [before, fate.crossing()]);
-    Ok(Prepared { surface, fate, notes, crossing, remeshed })
+    Ok(Prepared { surface, fate, notes: grouped(notes), crossing, remeshed })
 }
 
 /// The wrap of a surface, where one is asked for: of a wall that of its lumen, where that can be told.
@@ -183,7 +184,18 @@ pub(crate) async fn wrapped(
     yielder: &Yielder,
 ) -> Result<Option<TriMesh>, PrepareError> {
     let Some(tolerance_mm) = plan.wrap else { return Ok(None) };
-    let lumen = without_wall(split(mesh).mesh, notes, &yielder.part(0.0..0.1)).await.ok();
+    let mut told = Vec::new();
+    let lumen = match without_wall(split(mesh).mesh, &mut told, &yielder.part(0.0..0.1)).await {
+        Err(PrepareError::Wall { thickness_mm }) => {
+            told.push(Note::WrapWall { thickness_mm });
+            None
+        }
+        found => found.ok(),
+    };
+    notes.extend(told.into_iter().map(|note| match note {
+        Note::Lumen { thickness_mm } => Note::WrapLumen { thickness_mm },
+        note => note,
+    }));
     let part = yielder.part(0.1..1.0);
     wrap(lumen.as_ref().unwrap_or(mesh), tolerance_mm, plan.clips(), notes, &part).await.map(Some)
 }
@@ -238,7 +250,9 @@ async fn clipped(
     // An end that is too near a fork for such a plane is cut just inside of its rim, where that is uneven.
     let is_asked = |plane: &EndPlane| {
         let far = |end: &&PlannedEnd| end.tip().distance_squared(plane.centre);
-        ends.iter().min_by(|a, b| far(a).total_cmp(&far(b))).is_none_or(|end| end.is_asked)
+        ends.iter()
+            .min_by(|a, b| far(a).total_cmp(&far(b)))
+            .is_none_or(|end| end.is_asked && end.why != Some(Reason::Spicule))
     };
     let mut planes = planes_of_uneven_openings(&mesh)?;
     planes.retain(is_asked);

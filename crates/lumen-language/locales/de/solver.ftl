@@ -139,6 +139,7 @@ solver-note-left-out = { $others ->
 }
 solver-note-lumen = Die Oberfläche ist eine { $thickness_mm } mm dicke Wand: ihre Innenseite ist genommen.
 solver-note-not-cut = Das Ende bei ({ $at }) ist nicht geschnitten: { $why }.
+solver-note-not-cut-many = { $count } Enden sind nicht geschnitten: { $why }. Sie liegen bei { $places }.
 solver-note-no-end = Bei ({ $at }) endet kein Gefäß: dort wird nichts geschnitten.
 solver-note-no-ends = Kein Ende zum Verlängern oder Schließen gefunden: zuerst die Enden schneiden.
 solver-note-filled = { $count ->
@@ -146,14 +147,20 @@ solver-note-filled = { $count ->
    *[other] { $count } Löcher in der Wand sind gefüllt.
 }
 solver-note-wall = Die Öffnung bei ({ $at }) ist als Teil der Wand geschlossen: { $why }.
+solver-note-wall-many = { $count } Öffnungen sind als Teil der Wand geschlossen: { $why }. Sie liegen bei { $places }.
 solver-note-shorter = Die Verlängerung von { $name } ist nur { $mm } mm lang: weiter draußen träfe sie auf etwas.
+solver-note-shorter-many = { $count } Verlängerungen sind nur { $least_mm } bis { $most_mm } mm lang, weiter draußen träfen sie auf etwas: { $names }.
 solver-note-not-extended = { $name } ist nicht verlängert: { $why }.
+solver-note-not-extended-many = { $count } Enden sind nicht verlängert: { $why }. Es sind { $names }.
 solver-note-wrapped = Die Oberfläche ist umhüllt, höchstens { $deviation_mm } mm entfernt.
+solver-note-wrap-lumen = Die Oberfläche ist eine { $thickness_mm } mm dicke Wand: umhüllt ist ihr Lumen.
+solver-note-wrap-wall = Die Oberfläche ist eine { $thickness_mm } mm dicke Wand, deren Seiten sich nicht unterscheiden lassen: umhüllt ist die Wand, nicht ihr Lumen.
 solver-note-wrap-hollow = Die Hülle reicht bei { $at } ins Gefäß: die Wand hat Spalten, die breiter als die Toleranz sind, und umhüllt ist die Wand. Versuchen Sie eine größere Toleranz.
 
 ## Warum
 
 solver-why-fork = eine Gabelung ist zu nah: { $room_mm } mm sind frei
+solver-why-forks = eine Gabelung ist zu nah: höchstens { $most_mm } mm sind frei
 solver-why-not-round = das Gefäß ist dort nirgends rund
 solver-why-no-section = die Oberfläche hat dort keinen geschlossenen Querschnitt
 solver-why-open = der Querschnitt läuft in eine Öffnung
@@ -169,6 +176,7 @@ solver-why-no-room = es ist kein Platz dafür
 solver-why-fine = seine Kanten sind zu kurz für seine Fläche
 solver-why-unsound = die Oberfläche ist dort nicht in Ordnung
 solver-why-sac = es ist ein Sack, weiter als sein Hals
+solver-why-spicule = es ist ein Stachel einer rauen Wand und kein Gefäß
 solver-error-empty = die Oberfläche hat keine Dreiecke
 solver-error-unsound = Zahlen der Oberfläche sind nicht endlich oder außerhalb des Bereichs
 solver-error-tree = kein Ende zu finden: { $why }

@@ -139,6 +139,7 @@ solver-note-left-out = { $others ->
 }
 solver-note-lumen = La surface est une paroi de { $thickness_mm } mm d'épaisseur : sa face intérieure est prise.
 solver-note-not-cut = L'extrémité en ({ $at }) n'est pas coupée : { $why }.
+solver-note-not-cut-many = { $count } extrémités ne sont pas coupées : { $why }. Elles sont en { $places }.
 solver-note-no-end = Aucun vaisseau ne finit près de ({ $at }) : rien n'y est coupé.
 solver-note-no-ends = Aucune extrémité à prolonger ou à fermer : coupez d'abord les extrémités.
 solver-note-filled = { $count ->
@@ -146,14 +147,20 @@ solver-note-filled = { $count ->
    *[other] { $count } trous de la paroi sont remplis.
 }
 solver-note-wall = L'ouverture en ({ $at }) est fermée comme partie de la paroi : { $why }.
+solver-note-wall-many = { $count } ouvertures sont fermées comme parties de la paroi : { $why }. Elles sont en { $places }.
 solver-note-shorter = Le prolongement de { $name } ne fait que { $mm } mm : plus loin, il rencontrerait quelque chose.
+solver-note-shorter-many = { $count } prolongements ne font que { $least_mm } à { $most_mm } mm, plus loin ils rencontreraient quelque chose : { $names }.
 solver-note-not-extended = { $name } n'est pas prolongé : { $why }.
+solver-note-not-extended-many = { $count } extrémités ne sont pas prolongées : { $why }. Ce sont { $names }.
 solver-note-wrapped = La surface est enveloppée, à { $deviation_mm } mm au plus.
+solver-note-wrap-lumen = La surface est une paroi de { $thickness_mm } mm d'épaisseur : c'est sa lumière qui est enveloppée.
+solver-note-wrap-wall = La surface est une paroi de { $thickness_mm } mm d'épaisseur dont les faces ne se distinguent pas : c'est la paroi qui est enveloppée, et non sa lumière.
 solver-note-wrap-hollow = L'enveloppe entre dans le vaisseau en { $at } : la paroi a des fentes plus larges que la tolérance, et c'est elle qui est enveloppée. Essayez une tolérance plus grande.
 
 ## Pourquoi
 
 solver-why-fork = une bifurcation est trop proche : { $room_mm } mm sont libres
+solver-why-forks = une bifurcation est trop proche : { $most_mm } mm sont libres au plus
 solver-why-not-round = le vaisseau n'y est rond nulle part
 solver-why-no-section = la surface n'y a pas de section fermée
 solver-why-open = la section donne dans une ouverture
@@ -169,6 +176,7 @@ solver-why-no-room = il n'y a pas la place
 solver-why-fine = ses arêtes sont trop courtes pour son aire
 solver-why-unsound = la surface n'y est pas en ordre
 solver-why-sac = c'est un sac, plus large que son collet
+solver-why-spicule = c'est une pointe d'une paroi rugueuse et non un vaisseau
 solver-error-empty = la surface n'a aucun triangle
 solver-error-unsound = des nombres de la surface sont non finis ou hors limites
 solver-error-tree = aucune extrémité trouvée : { $why }

@@ -11,6 +11,7 @@
 
 mod rim;
 mod skeleton;
+mod spicule;
 mod unfold;
 
 use glam::DVec3;
@@ -23,6 +24,7 @@ use thiserror::Error;
 pub use rim::{OpenEnd, RimError, SurfaceError, check_surface, names, open_ends, planes_of_uneven_openings};
 pub(crate) use rim::{edges, forwards, plane};
 pub use skeleton::skeleton;
+pub(crate) use spicule::is_spicule;
 pub use unfold::unfold;
 
 /// The least over the largest width of a section that counts as round.
@@ -99,6 +101,12 @@ pub enum EndError {
     /// It is no end of the vessel.
     #[error("branch {} ends in a sac", branch + 1)]
     Sac {
+        /// Its place.
+        branch: u32,
+    },
+    /// It is no end of the vessel either.
+    #[error("branch {} is a spike of a rough wall", branch + 1)]
+    Spicule {
         /// Its place.
         branch: u32,
     },

@@ -41,4 +41,9 @@ fn of_a_wall_with_two_sides_the_lumen_is_prepared() {
     let found = prepared(&mesh, &Plan { remesh: Some(sizing), ..Plan::default() });
     let of_wall = PI * (outer * outer - inner * inner) * length;
     assert!((volume(&found.surface) / of_wall - 1.0).abs() < 0.03, "{}", volume(&found.surface));
+    // A wrap is one of the lumen, and says so.
+    let found = prepared(&mesh, &Plan { clip, wrap: Some(0.5), ..Plan::default() });
+    let is_told = |note: &Note| matches!(note, Note::WrapLumen { thickness_mm } if (thickness_mm - 1.0).abs() < 0.1);
+    assert!(found.notes.iter().any(is_told), "{:?}", found.notes);
+    assert!((volume(&found.surface) / (lumen * (length - 8.0)) - 1.0).abs() < 0.1, "{}", volume(&found.surface));
 }

@@ -25,23 +25,27 @@ mod sizing;
 mod steps;
 #[cfg(test)]
 mod tests;
+mod trace;
 mod triangle;
 mod walk;
 
+use std::sync::OnceLock;
+
 use lumen_mesh::task::{Yielder, at_once};
-use lumen_mesh::{Blend, SurfaceIndex, Topology, TriMesh, Vec3, triangle_area};
+use lumen_mesh::{Blend, Topology, TriMesh, Vec3, triangle_area};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub use self::measure::{Deviation, Quality};
 
-use self::measure::{Target, farthest, middle, samples};
-use self::net::{CORNER, FREE, NONE, Net, Unsound};
+use self::measure::samples;
+use self::net::{CORNER, NONE, Net, Unsound};
 use self::steps::Original;
+use self::trace::{Numbered, Trace, numbered};
 use self::triangle::doubled;
 use self::walk::Walk;
 use super::Patched;
-use crate::folds::clashing_in;
+use crate::folds::{clashing_in, clashing_of};
 
 /// Rounds of the steps, at most.
 const ROUNDS: usize = 9;
@@ -56,6 +60,8 @@ const LAST_ROUNDS: usize = 2;
 const REPAIR_ROUNDS: usize = 3;
 /// How often lengths are reduced at crossings, or beyond the bound on the deviation.
 const REPAIRS: usize = 4;
+/// Old triangles are looked at one by one for crossings that were there, where they are fewer than this part of all.
+const FEW_CROSSED: usize = 16;
 /// By what wanted lengths are multiplied there.
 const REDUCTION: f64 = 0.7;
 /// The largest coordinate, in mm: products of four fit into an f32.
@@ -106,26 +112,41 @@ impl Sizing {
     }
 }
 
-/// A surface that was remeshed.
+/// A surface that was remeshed. How far it went, and what each of its parts comes from, is found on request.
 #[derive(Clone, Debug)]
 pub struct Remeshed {
     /// The new surface, with the patches of the old one. Areas of patches are as they were.
     pub surface: Patched,
-    /// For each new triangle the triangle of the old surface that is nearest to its middle, on the same wall and in the same
-    /// patch.
-    pub from: Vec<u32>,
-    /// For each new vertex the old vertices that it lies between, by barycentric weights.
-    pub vertices: Blend,
-    /// How well the triangles are shaped.
-    pub quality: Quality,
-    /// How far the surfaces are apart.
-    pub deviation: Deviation,
     /// The new triangles that run into others or are folded onto a neighbour, ascending.
     pub crossing: Vec<u32>,
     /// Chains of rim, patch border and crease that were kept.
     pub curves: usize,
     /// Vertices that were kept in their place, because such chains meet or turn there.
     pub corners: usize,
+    trace: Trace,
+}
+
+impl Remeshed {
+    /// How well the triangles are shaped.
+    pub fn quality(&self) -> Quality {
+        Quality::of(&self.surface.mesh)
+    }
+
+    /// How far the new and the old surface are apart.
+    pub fn deviation(&self) -> Deviation {
+        self.trace.deviation()
+    }
+
+    /// For each new triangle the triangle of the old surface that is nearest to its middle, on the same wall and in the same
+    /// patch.
+    pub fn triangle_sources(&self) -> Vec<u32> {
+        self.trace.of_triangles()
+    }
+
+    /// For each new vertex the old vertices that it lies between, by barycentric weights.
+    pub fn vertex_sources(&self) -> Blend {
+        self.trace.of_vertices()
+    }
 }
 
 /// Why a surface cannot be remeshed.
@@ -243,7 +264,6 @@ async fn remeshed(
     let mut lengths = sizing::by_radius(&of_first(radii), sizing);
     net.size = lengths.iter().map(|&length| length.min(sizing.largest_mm) as f32).collect();
     let triangles: Vec<[u32; 3]> = net.origin.as_chunks::<3>().0.to_vec();
-    let index = SurfaceIndex::new(&net.at, &triangles);
     let walk = Walk::on(&net, triangles.len(), |t| t);
     let curves = features::find(&mut net, &walk, keeps_crowded);
     if let Some(deviation) = sizing.max_deviation_mm {
@@ -254,22 +274,22 @@ async fn remeshed(
     net.size = lengths.iter().map(|&length| length as f32).collect();
     let first = net.clone();
     let normals = triangles.iter().map(|t| doubled(t.map(|v| net.at[v as usize]))).collect();
-    let mut original = Original { triangles, normals, patch, index, walk, curves, lengths: net.size.clone() };
+    let (lengths_now, index) = (net.size.clone(), OnceLock::new());
+    let mut original = Original { first, triangles, normals, patch, index, walk, curves, lengths: lengths_now };
 
     run(&mut net, &original, ROUNDS, COARSE_ROUNDS, &yielder.part(0.1..0.8)).await;
     let mut new = numbered(&net);
     let mut crossing = new.clashing();
-    let mut crossed_before = None;
     for _ in 0..REPAIRS {
-        let mut coarse = where_crossed(&crossing, &new.mesh, &original, &first, &mut crossed_before);
+        let mut coarse = where_crossed(&crossing, &new.mesh, &original);
         if let Some(bound) = sizing.max_deviation_mm {
-            coarse.extend(where_far(bound, &new, &original, &first));
+            coarse.extend(where_far(bound, &new, &original));
         }
         if !reduce(&coarse, &original, sizing, &mut lengths) {
             break;
         }
-        sizing::grade(&first, sizing, &mut lengths);
-        if check_count(&first, &original.triangles, &lengths).is_err() {
+        sizing::grade(&original.first, sizing, &mut lengths);
+        if check_count(&original.first, &original.triangles, &lengths).is_err() {
             break;
         }
         original.lengths = lengths.iter().map(|&length| length as f32).collect();
@@ -279,8 +299,17 @@ async fn remeshed(
         crossing = new.clashing();
     }
     yielder.rest(0.9).await;
-    let found = finished(surface, &first, &net, &original, &kept, new, crossing);
-    Ok((found, original.curves.were_crowded))
+    let were_crowded = original.curves.were_crowded;
+    let of_triangle = new.triangles.iter().map(|&t| net.patch[t as usize]).collect();
+    let mesh = std::mem::take(&mut new.mesh);
+    let found = Remeshed {
+        surface: Patched { mesh, of_triangle, patches: surface.patches.clone() },
+        crossing,
+        curves: original.curves.count(),
+        corners: original.first.kind.iter().filter(|&&kind| kind == CORNER).count(),
+        trace: Trace { kept, original, net, new },
+    };
+    Ok((found, were_crowded))
 }
 
 /// The triangles that have three vertices.
@@ -375,39 +404,36 @@ async fn run(net: &mut Net, original: &Original, rounds: usize, coarse_rounds: u
     clean::widen_angles(net, original);
 }
 
-/// The old triangles, none of which crossed others, at new ones that do; `crossed_before` keeps which did.
-fn where_crossed(
-    crossing: &[u32],
-    mesh: &TriMesh,
-    original: &Original,
-    first: &Net,
-    crossed_before: &mut Option<Vec<bool>>,
-) -> Vec<u32> {
+/// The old triangles, none of which crossed others, at new ones that do.
+fn where_crossed(crossing: &[u32], mesh: &TriMesh, original: &Original) -> Vec<u32> {
     if crossing.is_empty() {
         return Vec::new();
     }
-    let crossed_before = crossed_before.get_or_insert_with(|| {
-        let old = TriMesh { positions: first.at.clone(), triangles: original.triangles.clone() };
-        let topology = Topology::new(old.positions.len(), &old.triangles);
-        let mut crossed = vec![false; old.triangles.len()];
-        clashing_in(&old, &original.index, &topology).into_iter().for_each(|t| crossed[t as usize] = true);
-        crossed
-    });
+    let index = original.index();
     let points = crossing.iter().flat_map(|&t| samples(mesh.corners(t as usize)));
-    let old = points.filter_map(|p| original.index.nearest(p)).map(|found| found.triangle);
-    old.filter(|&t| !crossed_before[t as usize]).collect()
+    let mut near: Vec<u32> = points.filter_map(|p| index.nearest(p)).map(|found| found.triangle).collect();
+    near.sort_unstable();
+    near.dedup();
+    let old = TriMesh { positions: original.first.at.clone(), triangles: original.triangles.clone() };
+    let crossed_before = if FEW_CROSSED * near.len() < old.triangles.len() {
+        clashing_of(&old, index, near.clone())
+    } else {
+        clashing_in(&old, index, &Topology::new(old.positions.len(), &old.triangles))
+    };
+    near.retain(|t| crossed_before.binary_search(t).is_err());
+    near
 }
 
 /// The old triangles where one of the surfaces is farther than `bound` from the other, in mm.
-fn where_far(bound: f64, new: &Numbered, original: &Original, first: &Net) -> Vec<u32> {
+fn where_far(bound: f64, new: &Numbered, original: &Original) -> Vec<u32> {
     let (bound, mesh, index) = (bound as f32, &new.mesh, &new.index);
     let mut far = Vec::new();
     for t in 0..mesh.triangles.len() {
-        let beyond = samples(mesh.corners(t)).into_iter().filter(|&p| !original.index.is_within(p, bound));
-        far.extend(beyond.filter_map(|p| original.index.nearest(p)).map(|found| found.triangle));
+        let beyond = samples(mesh.corners(t)).into_iter().filter(|&p| !original.index().is_within(p, bound));
+        far.extend(beyond.filter_map(|p| original.index().nearest(p)).map(|found| found.triangle));
     }
     for (t, corners) in original.triangles.iter().enumerate() {
-        let corners = corners.map(|v| first.at[v as usize]);
+        let corners = corners.map(|v| original.first.at[v as usize]);
         if samples(corners).into_iter().any(|p| !index.is_within(p, bound)) {
             far.push(t as u32);
         }
@@ -450,120 +476,4 @@ fn resize(net: &mut Net, original: &Original) {
             net.wake_ring(v);
         }
     }
-}
-
-/// A net as a list of triangles.
-struct Numbered {
-    mesh: TriMesh,
-    index: SurfaceIndex,
-    /// The net's vertex of each vertex.
-    vertices: Vec<u32>,
-    /// The net's triangle of each triangle.
-    triangles: Vec<u32>,
-}
-
-impl Numbered {
-    fn clashing(&self) -> Vec<u32> {
-        clashing_in(&self.mesh, &self.index, &Topology::new(self.mesh.positions.len(), &self.mesh.triangles))
-    }
-}
-
-/// Vertices that were parted where fans of triangles touch are one again.
-fn numbered(net: &Net) -> Numbered {
-    let mut number = vec![NONE; net.at.len()];
-    let (mut mesh, mut vertices, mut triangles) = (TriMesh::default(), Vec::new(), Vec::new());
-    for t in (0..net.patch.len() as u32).filter(|&t| net.is_live(3 * t)) {
-        let corners = [0, 1, 2].map(|i| {
-            let mut v = net.origin(3 * t + i);
-            if net.kind[v as usize] == CORNER && net.first[v as usize] != NONE {
-                v = net.first[v as usize];
-            }
-            if number[v as usize] == NONE {
-                number[v as usize] = mesh.positions.len() as u32;
-                mesh.positions.push(net.at[v as usize]);
-                vertices.push(v);
-            }
-            number[v as usize]
-        });
-        let [a, b, c] = corners;
-        if a != b && b != c && c != a {
-            mesh.triangles.push(corners);
-            triangles.push(t);
-        }
-    }
-    let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
-    Numbered { mesh, index, vertices, triangles }
-}
-
-fn finished(
-    surface: &Patched,
-    first: &Net,
-    net: &Net,
-    original: &Original,
-    kept: &[u32],
-    new: Numbered,
-    crossing: Vec<u32>,
-) -> Remeshed {
-    let deviation = deviation(&new, net, original, first);
-    let Numbered { mesh, vertices, triangles, .. } = new;
-    let mut blend = Blend::with_capacity(vertices.len(), 3 * vertices.len());
-    for &v in &vertices {
-        push_sources(&mut blend, first, net, original, v);
-    }
-    let of_triangle: Vec<u32> = triangles.iter().map(|&t| net.patch[t as usize]).collect();
-    let from = (0..mesh.triangles.len()).map(|t| {
-        let corners = mesh.triangles[t].map(|v| vertices[v as usize]);
-        let p = middle(mesh.corners(t));
-        let nearest = original.walk.from(net.near[corners[0] as usize], p, 0.0).triangle;
-        if original.patch[nearest as usize] == of_triangle[t] {
-            return kept[nearest as usize];
-        }
-        // Beside a border the middle may be nearer to the other patch; a corner is not.
-        let free = corners.into_iter().filter(|&v| net.kind[v as usize] == FREE);
-        let other = free.map(|v| net.foot[v as usize].on).find(|&foot| foot != NONE);
-        kept[other.filter(|&t2| original.patch[t2 as usize] == of_triangle[t]).unwrap_or(nearest) as usize]
-    });
-    let from = from.collect();
-    Remeshed {
-        quality: Quality::of(&mesh),
-        deviation,
-        surface: Patched { mesh, of_triangle, patches: surface.patches.clone() },
-        from,
-        vertices: blend,
-        crossing,
-        curves: original.curves.count(),
-        corners: first.kind.iter().filter(|&&kind| kind == CORNER).count(),
-    }
-}
-
-/// Adds the row of a new vertex.
-fn push_sources(blend: &mut Blend, first: &Net, net: &Net, original: &Original, v: u32) {
-    let (kind, at, foot) = (net.kind[v as usize], net.at[v as usize], net.foot[v as usize]);
-    let row = if foot.on == NONE && net.first[v as usize] != NONE {
-        Some(([v, v, v], [1.0, 0.0, 0.0]))
-    } else if kind != FREE && foot.on != NONE && !net.is_adrift[v as usize] {
-        let [a, b] = original.curves.segments[foot.on as usize];
-        Some(([a, b, b], foot.weights))
-    } else if kind == FREE && foot.on != NONE && !net.is_adrift[v as usize] {
-        Some((original.triangles[foot.on as usize], foot.weights))
-    } else {
-        let found = original.index.nearest(at);
-        found.map(|found| (original.triangles[found.triangle as usize], found.barycentric))
-    };
-    for (corner, weight) in row.into_iter().flat_map(|(corners, weights)| corners.into_iter().zip(weights)) {
-        blend.push(first.first[corner as usize], weight);
-    }
-    blend.finish_row();
-}
-
-/// How far the new and the old surface are apart.
-fn deviation(new: &Numbered, net: &Net, original: &Original, first: &Net) -> Deviation {
-    let mut number = vec![NONE; net.patch.len()];
-    (0..).zip(&new.triangles).for_each(|(new, &t)| number[t as usize] = new);
-    let walk = Walk::on(net, new.triangles.len(), |t| number[t as usize]);
-    let of_new = Target { walk: &walk, index: &new.index };
-    let old: Vec<u32> = original.index.triangles().collect();
-    // What is new lies where its vertices do.
-    let to_old_mm = farthest(net, &new.triangles, original.to_measure(), true);
-    Deviation { to_old_mm, to_new_mm: farthest(first, &old, of_new, false) }
 }

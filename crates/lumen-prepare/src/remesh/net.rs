@@ -151,6 +151,7 @@ impl Net {
 
     fn part_fans(&mut self) {
         let mut was_seen = vec![false; self.origin.len()];
+        let mut fan = Vec::new();
         for h in 0..self.origin.len() as u32 {
             if was_seen[h as usize] {
                 continue;
@@ -171,8 +172,9 @@ impl Net {
                 v = copy;
             }
             self.anchor(v, h);
-            let fan: Vec<u32> = self.around(v).collect();
-            for h in fan {
+            fan.clear();
+            fan.extend(self.around(v));
+            for &h in &fan {
                 was_seen[h as usize] = true;
                 self.origin[h as usize] = v;
             }

@@ -5,6 +5,8 @@
 //!
 //! A vertex on a feature curve splits, collapses and relaxes along the curve alone, a corner stays.
 
+use std::sync::OnceLock;
+
 use glam::Vec3;
 use lumen_mesh::SurfaceIndex;
 
@@ -39,15 +41,18 @@ const FLIP_QUALITY: f32 = 0.3;
 const FLIP_TURN: f32 = 0.7;
 
 /// The surface that entered, to project on.
+#[derive(Clone, Debug)]
 pub(super) struct Original {
+    /// As a net, before the steps.
+    pub(super) first: Net,
     /// Its triangles, in the vertices that the net began with.
     pub(super) triangles: Vec<[u32; 3]>,
     /// Their normals, as long as twice their area.
     pub(super) normals: Vec<Vec3>,
     /// Their patches.
     pub(super) patch: Vec<u32>,
-    /// An index of them.
-    pub(super) index: SurfaceIndex,
+    /// An index of them, once it was asked for: most vertices are found without.
+    pub(super) index: OnceLock<SurfaceIndex>,
     /// A way over them.
     pub(super) walk: Walk,
     /// Feature curves.
@@ -78,9 +83,14 @@ impl Place {
 }
 
 impl Original {
+    /// The index of its triangles.
+    pub(super) fn index(&self) -> &SurfaceIndex {
+        self.index.get_or_init(|| SurfaceIndex::new(&self.first.at, &self.triangles))
+    }
+
     /// The surface to measure distances from.
     pub(super) fn to_measure(&self) -> Target<'_> {
-        Target { walk: &self.walk, index: &self.index }
+        Target { walk: &self.walk, index: self.index() }
     }
 
     /// The place of the same curve, or of the same patch, that is nearest to `p`, for a vertex that is there or near.
@@ -105,10 +115,10 @@ impl Original {
         let (on, at, weights) = if found.squared <= f64::from(size * size) && is_own(found.triangle) {
             (found.triangle, found.point, found.weights)
         } else {
-            let mut found = self.index.nearest(p)?;
+            let mut found = self.index().nearest(p)?;
             // Where two walls nearly touch, the nearest may be the other one, which faces the other way.
             if !is_own(found.triangle) {
-                found = self.index.nearest_of(p, is_own).filter(|own| own.distance <= size)?;
+                found = self.index().nearest_of(p, is_own).filter(|own| own.distance <= size)?;
             }
             (found.triangle, found.point, found.barycentric)
         };

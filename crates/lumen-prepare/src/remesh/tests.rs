@@ -4,7 +4,7 @@ use lumen_mesh::mending::{Mending, mend};
 use lumen_mesh::shapes::{fork, icosphere, joined, sagitta, tube};
 use lumen_mesh::split_mix::SplitMix64;
 use lumen_mesh::task::{Yielder, at_once};
-use lumen_mesh::{Topology, boundary_loops, surface_area, volume};
+use lumen_mesh::{SurfaceIndex, Topology, boundary_loops, surface_area, volume};
 
 use super::*;
 use crate::{Patch, PatchKind};
@@ -22,8 +22,8 @@ fn euler(mesh: &TriMesh) -> i64 {
 }
 
 fn assert_good(found: &Remeshed) {
-    let Quality { mean, below_30_deg, .. } = found.quality;
-    assert!(mean >= 0.95 && below_30_deg <= 0.001, "{:?}", found.quality);
+    let Quality { mean, below_30_deg, .. } = found.quality();
+    assert!(mean >= 0.95 && below_30_deg <= 0.001, "{:?}", found.quality());
     assert!(found.crossing.is_empty(), "{:?}", found.crossing);
 }
 
@@ -152,7 +152,7 @@ fn caps_stay_flat_round_and_watertight() {
         }
         assert!((area / (PI * 9.0) - 1.0).abs() < 0.005, "{area}");
     }
-    for (&from, &patch) in found.from.iter().zip(of_triangle) {
+    for (&from, &patch) in found.triangle_sources().iter().zip(of_triangle) {
         assert_eq!(surface.of_triangle[from as usize], patch);
     }
 }
@@ -173,7 +173,7 @@ fn a_cube_keeps_its_edges_corners_and_volume() {
     let topology = Topology::new(new.positions.len(), &new.triangles);
     assert!((volume(new, &topology) - 1000.0).abs() < 1e-2);
     assert!((surface_area(new) - 600.0).abs() < 1e-2);
-    assert!(found.deviation.to_new_mm < 1e-5 && found.deviation.to_old_mm < 1e-5);
+    assert!(found.deviation().to_new_mm < 1e-5 && found.deviation().to_old_mm < 1e-5);
     assert_good(&found);
 }
 
@@ -228,7 +228,7 @@ fn the_deviation_keeps_to_its_bound_on_both_sides() {
     let sizing = Sizing { largest_mm: 8.0, max_deviation_mm: Some(0.05), ..Sizing::default() };
     let found = remesh(&Patched::wall(sphere.clone()), &vec![f32::INFINITY; sphere.positions.len()], &sizing).unwrap();
     assert_good(&found);
-    assert!(found.deviation.to_old_mm <= 0.05 && found.deviation.to_new_mm <= 0.05, "{:?}", found.deviation);
+    assert!(found.deviation().to_old_mm <= 0.05 && found.deviation().to_new_mm <= 0.05, "{:?}", found.deviation());
     // A triangle whose middle lies 0.05 mm below the sphere has sides of 1.73 mm: there are 967 of them.
     let count = found.surface.mesh.triangles.len();
     assert!((900..3000).contains(&count), "{count}");
@@ -245,9 +245,9 @@ fn deviations_are_those_of_each_sample_by_itself() {
         all.map(|p| f64::from(index.nearest(p).unwrap().distance)).fold(0.0, f64::max)
     };
     let new = &found.surface.mesh;
-    assert!((found.deviation.to_old_mm - farthest(new, &mesh)).abs() < 1e-6);
-    assert!((found.deviation.to_new_mm - farthest(&mesh, new)).abs() < 1e-6);
-    assert!(found.deviation.to_new_mm > 0.1);
+    assert!((found.deviation().to_old_mm - farthest(new, &mesh)).abs() < 1e-6);
+    assert!((found.deviation().to_new_mm - farthest(&mesh, new)).abs() < 1e-6);
+    assert!(found.deviation().to_new_mm > 0.1);
 }
 
 #[test]
@@ -259,7 +259,7 @@ fn of_creases_without_room_between_one_is_kept() {
     };
     let thick = plate(2.0);
     assert_eq!((thick.curves, thick.corners), (12, 8));
-    assert!(thick.quality.below_30_deg <= 0.001, "{:?}", thick.quality);
+    assert!(thick.quality().below_30_deg <= 0.001, "{:?}", thick.quality());
     // Without the creases of one side this plate would cross itself: they are kept at the cost of angles.
     let thin = plate(0.3);
     for found in [&thick, &thin] {
@@ -269,7 +269,7 @@ fn of_creases_without_room_between_one_is_kept() {
     assert_eq!((thin.curves, thin.corners), (8, 8));
     let thin = plate(0.39);
     assert_eq!((thin.curves, thin.corners), (4, 4));
-    assert!(thin.crossing.is_empty() && thin.quality.below_30_deg <= 0.001, "{:?}", thin.quality);
+    assert!(thin.crossing.is_empty() && thin.quality().below_30_deg <= 0.001, "{:?}", thin.quality());
 }
 
 #[test]
@@ -314,7 +314,8 @@ fn vertices_blend_linear_values_of_the_old_ones() {
         1,
         lumen_mesh::arrays::Values::from_floats(&heights),
     );
-    let blended = lumen_mesh::blended(&[array], &found.vertices, &Blend::of_rows(found.from.iter().copied()));
+    let blended =
+        lumen_mesh::blended(&[array], &found.vertex_sources(), &Blend::of_rows(found.triangle_sources().into_iter()));
     for (v, p) in found.surface.mesh.positions.iter().enumerate() {
         assert!((blended[0].values.get(v) as f32 - p.z).abs() < 1e-4);
     }
@@ -403,7 +404,7 @@ fn degenerate_triangles_do_no_harm() {
         let found = remesh(&Patched::wall(mesh.clone()), &radii, &uniform(mm)).unwrap();
         assert_good(&found);
         assert_eq!(euler(&found.surface.mesh), 2);
-        assert!(found.from.iter().all(|&t| t < 1280));
+        assert!(found.triangle_sources().iter().all(|&t| t < 1280));
     }
 }
 
@@ -490,6 +491,9 @@ fn whatever_enters_comes_out_with_its_topology_or_an_error() {
         assert_eq!(topology.edge_counts().non_manifold + topology.edge_counts().flipped, 0);
         assert_eq!((euler(new), boundary_loops(&topology).len()), before);
         assert!(new.positions.iter().all(|p| p.is_finite()));
-        assert_eq!((found.from.len(), found.vertices.len()), (new.triangles.len(), new.positions.len()));
+        assert_eq!(
+            (found.triangle_sources().len(), found.vertex_sources().len()),
+            (new.triangles.len(), new.positions.len())
+        );
     }
 }
