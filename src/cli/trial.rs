@@ -17,6 +17,7 @@ use super::source::{self, UNIT_HELP, UnitOption};
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::pipeline::run::Pipeline;
+use crate::pipeline::safe::PastSafe;
 use crate::pipeline::settings::{Settings, Smoothing, Target};
 use crate::trial::course::Course;
 use crate::trial::session::Trial as Run;
@@ -142,7 +143,15 @@ impl Trial {
         if self.serve {
             return serve(&mesh, sample, setup, self.element, std::io::stdin().lock(), std::io::stdout().lock());
         }
-        let run = trial(&mesh, sample, setup, self.element, true)?;
+        let run = match trial(&mesh, sample, setup, self.element, true) {
+            Ok(run) => run,
+            Err(error) => {
+                if let Some(sentence) = past_safe(pipeline)? {
+                    eprintln!("lumen: warning: {sentence}");
+                }
+                return Err(error);
+            }
+        };
         let summary = run.summary();
         if let Some(path) = &self.log {
             write_whole(path, run.log().csv(summary.steps)?.as_bytes())?;
@@ -151,6 +160,13 @@ impl Trial {
             write_whole(path, serde_json::to_string_pretty(&summary)?.as_bytes())?;
         }
         print(&summary);
+        // To find the safe rate takes as long as the verdict: only a failure is worth it.
+        if !summary.success
+            && let Some(sentence) = past_safe(pipeline)?
+        {
+            row("safe rate", sentence);
+        }
+        println!("{}", summary.notice);
         Ok(())
     }
 
@@ -284,5 +300,14 @@ fn print(summary: &Summary) {
     if summary.steps_looked_ahead > 0 {
         row("looked ahead", format!("{} steps, beside those of the trial", summary.steps_looked_ahead));
     }
-    println!("{}", summary.notice);
+}
+
+/// That the level is reduced further than is safe, if it is.
+fn past_safe(pipeline: Pipeline) -> Result<Option<PastSafe>> {
+    let triangles = pipeline.reduced().map(|level| level.mesh.triangles.len());
+    let is_reduced = pipeline.settings().target != Target::Reduction(0);
+    let Some(triangles) = triangles.filter(|_| is_reduced) else { return Ok(None) };
+    let mut pipeline = pipeline.with_safe();
+    advance(&mut pipeline)?;
+    Ok(pipeline.safe().and_then(|safe| safe.past(triangles)))
 }

@@ -199,6 +199,21 @@ pub fn fork() -> (TriMesh, [DVec3; 4]) {
     (isosurface(low, high, 0.5, inside), [DVec3::ZERO, joint, left, right])
 }
 
+/// A trunk along z with a branch half as wide that leaves it half-way by 60 degrees towards x, all with round ends; and where
+/// the axis of the branch ends. The trunk's begins at the origin; all lengths in mm.
+pub fn parted(radius: f64, length: f64, branch_length: f64, cell: f64) -> (TriMesh, DVec3) {
+    let (sin, cos) = libm::sincos(60.0f64.to_radians());
+    let joint = DVec3::Z * length / 2.0;
+    let end = joint + DVec3::new(sin, 0.0, cos) * branch_length;
+    let inside = |p: DVec3| {
+        let trunk = in_capsule(p, DVec3::ZERO, DVec3::Z * length, radius);
+        trunk.max(in_capsule(p, joint, end, radius / 2.0))
+    };
+    let out = radius + 1.0;
+    let high = DVec3::new(end.x + radius / 2.0 + 1.0, out, length + out);
+    (isosurface(DVec3::splat(-out), high, cell, inside), end)
+}
+
 /// Whether the triangles around every vertex form one fan.
 pub fn vertices_are_manifold(mesh: &TriMesh, topology: &Topology) -> bool {
     (0..mesh.positions.len() as u32).all(|v| {

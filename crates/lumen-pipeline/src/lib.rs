@@ -45,6 +45,7 @@ pub const MESSAGES: &[&[lumen_message::Signature]] = &[
     progressive::ShortfallMessage::MESSAGES,
     response::HalfGain::MESSAGES,
     safe::NoSafeRate::MESSAGES,
+    safe::PastSafe::MESSAGES,
     safe::Stop::MESSAGES,
     settings::OutOfRange::MESSAGES,
     settings::Preset::MESSAGES,

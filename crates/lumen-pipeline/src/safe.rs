@@ -112,6 +112,24 @@ messages! {
     }
 }
 
+messages! {
+    /// A level is reduced further than is safe.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum PastSafe {
+        /// There is a rate at which what is measured keeps its calibre.
+        "verdict-safe-past" Past {
+            /// The triangles of the level.
+            triangles: usize,
+            /// The highest such rate, in percent.
+            rate: f64 [1],
+            /// The triangles at that rate.
+            kept: usize,
+        } => "Reduced too far for the measured vessels to keep their calibre: {triangles} triangles are left, and they keep \
+              it down to {kept}, at {rate:.1} %. Try that rate: a vessel may be too narrow for the wire by the reduction \
+              alone.",
+    }
+}
+
 /// How far a reduction is safe for a branch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BranchSafe {
@@ -159,6 +177,13 @@ impl Safe {
             (None, _) => pinch.map(|pinch| in_tenths(pinch.from_percent).saturating_sub(1)),
         };
         stop.map_or(Target::AUTO_PER_MILLE, |stop| stop.min(Target::AUTO_PER_MILLE))
+    }
+
+    /// Says that a level of so many triangles is past the highest rate; `None` where it is not, where nothing stops a reduction
+    /// and where there is no such rate.
+    pub fn past(&self, triangles: usize) -> Option<PastSafe> {
+        let (rate, kept) = (self.percent?, self.triangles?);
+        (self.stopped_by.is_some() && triangles < kept).then_some(PastSafe::Past { triangles, rate, kept })
     }
 
     /// No rate, for this reason.
@@ -399,6 +424,19 @@ mod tests {
         let refused = Safe::refused(2.0, NoSafeRate::NoneMeasured);
         let pinched = [None, Some(50.0), Some(95.0), Some(0.0)].map(|from| refused.auto(from.map(pinch)));
         assert_eq!(pinched, [900, 499, 900, 0]);
+    }
+
+    #[test]
+    fn a_level_is_past_the_safe_rate_with_fewer_triangles_where_something_stops_it() {
+        let stopped_by = Some(Stop::Unmeasured { rate: 75.1, name: branch(1, None).label() });
+        let refused = Safe::refused(2.0, NoSafeRate::NoneMeasured);
+        let safe = Safe { percent: Some(75.0), triangles: Some(2500), stopped_by, refused: None, ..refused.clone() };
+        assert_eq!([2500, 5000].map(|triangles| safe.past(triangles)), [None, None]);
+        let said = safe.past(1000).unwrap().to_string();
+        assert!(said.contains("1000 triangles are left, and they keep it down to 2500, at 75.0 %"), "{said}");
+        // A surface that goes no further is safe all the way; where nothing is measured there is no rate.
+        assert_eq!(Safe { stopped_by: None, ..safe }.past(1000), None);
+        assert_eq!(refused.past(1000), None);
     }
 
     #[test]

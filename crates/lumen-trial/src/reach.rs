@@ -112,15 +112,13 @@ messages! {
 mod tests {
     use std::sync::Arc;
 
-    use glam::DVec3;
-
     use super::*;
     use crate::course::Course;
     use crate::frame::Progress;
     use crate::log::Log;
     use crate::session::Trial;
     use crate::setup::{Entry, Setup};
-    use lumen_mesh::shapes::{in_capsule, isosurface};
+    use lumen_mesh::shapes::parted;
 
     fn near(found: f64, expected: f64) {
         assert!((found - expected).abs() < 1e-6 * expected.abs().max(1.0), "{found}, not {expected}");
@@ -181,15 +179,8 @@ mod tests {
     /// The simulation knows nothing of reach.
     #[test]
     fn the_tip_that_reaches_into_a_made_fork_gets_in_and_the_one_that_does_not_stays_out() {
-        let (sin, cos) = libm::sincos(60.0f64.to_radians());
-        let joint = DVec3::Z * 80.0;
-        let end = joint + DVec3::new(sin, 0.0, cos) * 59.0;
-        let inside = |p: DVec3| {
-            let trunk = in_capsule(p, DVec3::ZERO, DVec3::Z * 160.0, 12.0);
-            trunk.max(in_capsule(p, joint, end, 6.0))
-        };
-        let (low, high) = (DVec3::new(-13.0, -13.0, -13.0), DVec3::new(58.0, 13.0, 173.0));
-        let mesh = Arc::new(isosurface(low, high, 1.2, inside));
+        let (mesh, end) = parted(12.0, 160.0, 59.0, 1.2);
+        let mesh = Arc::new(mesh);
         let entry = Some(Entry { at: [0.0, 0.0, 4.0], direction: [0.0, 0.0, 1.0] });
         let open = Setup { entry, target: Some(end.as_vec3().to_array()), seed: 1, ..Setup::default() };
         let steered = |mut setup: Setup| {

@@ -3,13 +3,11 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use glam::DVec3;
-
 use super::engine::TrialEngine;
 use super::haptic_channel::HapticChannel;
 use super::message::{HAND, TrialCommand, TrialEvent};
 use super::pace::BEHIND;
-use crate::mesh::shapes::{in_capsule, isosurface};
+use crate::mesh::shapes::parted;
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::trial::STEP;
@@ -326,14 +324,8 @@ fn a_device_s_hand_moves_the_wire_and_feels_it_and_one_that_is_silent_does_neith
 #[test]
 fn looking_ahead_goes_on_in_slices_while_the_wire_stands_and_ends_where_a_hand_takes_it() {
     // A trunk with a branch in which this wire fails twice.
-    let (sin, cos) = libm::sincos(60.0f64.to_radians());
-    let joint = DVec3::Z * 45.0;
-    let end = joint + DVec3::new(sin, 0.0, cos) * 40.0;
-    let inside = |p: DVec3| {
-        let trunk = in_capsule(p, DVec3::ZERO, DVec3::Z * 90.0, 8.0);
-        trunk.max(in_capsule(p, joint, end, 4.0))
-    };
-    let mesh = Arc::new(isosurface(DVec3::splat(-9.0), DVec3::new(40.0, 9.0, 109.0), 1.0, inside));
+    let (mesh, end) = parted(8.0, 90.0, 40.0, 1.0);
+    let mesh = Arc::new(mesh);
     let wire = Wire::preset("035-angled").unwrap();
     let entry = Some(Entry { at: [0.0, 0.0, 4.0], direction: [0.0, 0.0, 1.0] });
     let setup = Setup { wire, entry, target: Some(end.as_vec3().to_array()), seed: 2, ..Setup::default() };

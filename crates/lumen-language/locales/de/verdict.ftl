@@ -127,6 +127,7 @@ verdict-place-cap = Fläche { $percent } %
 
 ## Wie weit eine Reduktion sicher ist: Sätze ohne Punkt
 
+verdict-safe-past = Zu weit reduziert, als dass die gemessenen Gefäße ihr Kaliber behielten: { $triangles } Dreiecke sind übrig, sie behalten es bis { $kept }, bei { $rate } %. Versuchen Sie diese Rate: Ein Gefäß kann allein durch die Reduktion zu eng für den Draht sein.
 verdict-safe-none-kept = Schon die Glättung ändert jedes messbare Gefäß
 verdict-safe-none-measured = Kein Gefäß ist messbar
 verdict-safe-changed = Bei { $rate } % ändert sich { $name } um { $by } %, bei ({ $x }; { $y }; { $z })

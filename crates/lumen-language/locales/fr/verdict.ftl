@@ -127,6 +127,7 @@ verdict-place-cap = surface { $percent } %
 
 ## Jusqu'où une réduction est sûre : des phrases sans point final
 
+verdict-safe-past = Trop réduite pour que les vaisseaux mesurés gardent leur calibre : il reste { $triangles } triangles, et ils le gardent jusqu'à { $kept }, à { $rate } %. Essayez ce taux : un vaisseau peut être trop étroit pour le guide par la seule réduction.
 verdict-safe-none-kept = le lissage lui-même change chaque vaisseau mesurable
 verdict-safe-none-measured = aucun vaisseau n'est mesurable
 verdict-safe-changed = À { $rate } %, la { $name } change de { $by } %, en ({ $x } ; { $y } ; { $z })

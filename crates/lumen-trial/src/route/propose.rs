@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::forks::turn_degrees;
 use super::way::between;
-use super::{PlaceName, WayEnd, usual_radius};
+use super::{PlaceName, Routes as _, WayEnd, usual_radius};
 use crate::setup::Entry;
 use lumen_vessel::phantom::{Sample, Vessel, vessels};
 use lumen_vessel::{Branch, End, NONE, Tree, direction};
@@ -25,6 +25,14 @@ const AORTA: f64 = 12.0;
 /// An artery of at most this diameter in mm that leaves an aorta is entered in its ostium, by a guide catheter; that of a
 /// kidney has 6.
 const GUIDED: f64 = 5.0;
+/// Where a centreline runs on from an aorta into an artery, its width falls from [`AORTA`] to [`GUIDED`] within so many mm:
+/// while a ball goes from the middle of the one into the mouth of the other. From an aorta to a femoral artery that takes
+/// 200 mm.
+const FALL_MM: f64 = 15.0;
+/// A wide piece is an aorta if it is so many times as long as it is wide; an aneurysm is not.
+const SLENDER: f64 = 2.0;
+/// An artery goes on for so many mm behind its ostium; where a flat end is cut square to a vessel the balls shrink, too.
+const ARTERY_MM: f64 = 10.0;
 /// From an iliac artery a wire turns into the aorta by no more degrees, from the arteries of bowels, kidneys and the neck by
 /// more.
 const ILIAC: f64 = 45.0;
@@ -92,7 +100,8 @@ pub trait Proposals {
     fn entries(&self) -> Vec<(PlaceName, Entry)>;
 
     /// Places in the ostia of thin arteries that leave an aorta, as the coronary ones do: there a guide catheter lies, and
-    /// points along the artery. By the place of the artery in [`Tree::branches`].
+    /// points along the artery. It lies where the artery leaves the aorta's branch, or where that branch itself becomes
+    /// abruptly thin: a centreline may run on from the one into the other. By the branch's place in [`Tree::branches`].
     fn ostia(&self) -> Vec<(PlaceName, Entry)>;
 
     /// That of [`Self::ostia`] which lies on the way from `from` to `to`, nearest to `to`.
@@ -118,31 +127,26 @@ impl Proposals for Tree {
     }
 
     fn ostia(&self) -> Vec<(PlaceName, Entry)> {
-        let found = self.branches().iter().filter_map(|branch| {
-            let parent = &self.branches()[branch.parent? as usize];
-            let at = branch.arcs.partition_point(|&arc| arc < branch.arcs[branch.ostium] + INSIDE_MM);
-            let place = branch.points.get(at)?;
-            let entry = Entry {
-                at: place.at.as_vec3().to_array(),
-                direction: direction(&branch.points, at).as_vec3().to_array(),
-            };
-            let is_one = is_aorta(parent) && branch.ostium > 0 && 2.0 * place.radius <= GUIDED;
-            // Where walls cross each other, it may be outside of another vessel.
-            (is_one && self.is_inside(place.at.as_vec3()))
-                .then_some((PlaceName::Ostium { branch: branch.id, diameter_mm: 2.0 * place.radius }, entry))
+        let found = self.branches().iter().flat_map(|branch| {
+            let begins = branch.parent.is_some_and(|parent| is_aorta(&self.branches()[parent as usize]));
+            let at_start = (begins && branch.ostium > 0).then_some((branch.ostium, true));
+            let within = [true, false].into_iter().filter_map(|is_along| Some((fall(branch, is_along)?, is_along)));
+            at_start.into_iter().chain(within).filter_map(|(mouth, is_along)| guided(branch, mouth, is_along))
         });
-        found.collect()
+        // Where walls cross each other, it may be outside of another vessel.
+        found.filter(|(_, entry)| self.is_inside(Vec3::from(entry.at))).collect()
     }
 
     fn ostium_on_way(&self, from: Vec3, to: Vec3) -> Option<(PlaceName, Entry)> {
-        let [own, target] = [from, to].map(|p| self.locate(p.as_dvec3(), None).map(|located| located.branch));
-        let way = between(self, own?, target?);
-        let is_entered = |pair: &[u32], id: u32| pair[1] == id && self.branches()[pair[0] as usize].parent != Some(id);
-        self.ostia().into_iter().rfind(|(name, entry)| {
-            let PlaceName::Ostium { branch, .. } = *name else { return false };
-            let is_on_way = way.windows(2).any(|pair| is_entered(pair, branch));
-            is_on_way && f64::from(Vec3::from(entry.at).distance(to)) > NEAREST
-        })
+        let ostia = self.ostia();
+        let route = (!ostia.is_empty()).then(|| self.route(from, to).ok()).flatten()?;
+        let passed = ostia.into_iter().filter_map(|ostium| {
+            let (at, way) = (Vec3::from(ostium.1.at), Vec3::from(ostium.1.direction).as_dvec3());
+            let on = route.locate(at.as_dvec3());
+            let is_on_way = on.distance_mm < on.radius_mm && route.at(on.arc_mm).direction.dot(way) > 0.0;
+            (is_on_way && f64::from(at.distance(to)) > NEAREST).then_some((on.arc_mm, ostium))
+        });
+        passed.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ostium)| ostium)
     }
 
     fn targets(&self, from: Vec3, room_mm: f64) -> Vec<Target> {
@@ -210,6 +214,37 @@ fn is_back(tree: &Tree, pair: [u32; 2]) -> bool {
 fn usual_radius_of(branch: &Branch) -> f64 {
     let pairs = branch.points.windows(2);
     usual_radius(pairs.map(|pair| (pair[1].radius, pair[0].at.distance(pair[1].at))).collect())
+}
+
+/// The entry a little behind the mouth of an artery, along the branch or against it, if it is thin there.
+fn guided(branch: &Branch, mouth: usize, is_along: bool) -> Option<(PlaceName, Entry)> {
+    let mouth = branch.arcs[mouth];
+    let at = if is_along {
+        branch.arcs.partition_point(|&arc| arc < mouth + INSIDE_MM)
+    } else {
+        branch.arcs.partition_point(|&arc| arc <= mouth - INSIDE_MM).checked_sub(1)?
+    };
+    let place = branch.points.get(at).filter(|place| 2.0 * place.radius <= GUIDED)?;
+    let way = direction(&branch.points, at) * if is_along { 1.0 } else { -1.0 };
+    let entry = Entry { at: place.at.as_vec3().to_array(), direction: way.as_vec3().to_array() };
+    Some((PlaceName::Ostium { branch: branch.id, diameter_mm: 2.0 * place.radius }, entry))
+}
+
+/// Where one branch, followed along its points or against them, goes over from an aorta into a thin artery: the first place
+/// in the artery. A narrow place behind which it is as wide again is none.
+fn fall(branch: &Branch, is_along: bool) -> Option<usize> {
+    let count = branch.points.len();
+    let place = |i: usize| if is_along { i } else { count - 1 - i };
+    let diameter = |i: usize| 2.0 * branch.points[place(i)].radius;
+    let between = |i: usize, j: usize| (branch.arcs[place(j)] - branch.arcs[place(i)]).abs();
+    let last_wide = (0..count).rfind(|&i| diameter(i) >= AORTA)?;
+    let mouth = (last_wide..count).find(|&i| diameter(i) <= GUIDED)?;
+    let first_wide = (0..last_wide).rfind(|&i| diameter(i) < AORTA).map_or(0, |i| i + 1);
+    let widest = (first_wide..=last_wide).map(diameter).fold(0.0, f64::max);
+    let is_one = between(last_wide, mouth) <= FALL_MM
+        && between(first_wide, last_wide) >= SLENDER * widest
+        && between(mouth, count - 1) >= ARTERY_MM;
+    is_one.then_some(place(mouth))
 }
 
 fn is_aorta(branch: &Branch) -> bool {

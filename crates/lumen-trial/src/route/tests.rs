@@ -285,6 +285,59 @@ fn a_thin_artery_that_leaves_an_aorta_is_entered_in_its_ostium() {
     assert_ne!(task(None, Some(side.to_array())).0, found[0].1);
 }
 
+/// A vessel along z of this diameter at each place, closed by round ends.
+fn along_z(diameters: &[(f64, f64)]) -> Tree {
+    let (low, high) = (diameters[0].0, diameters[diameters.len() - 1].0);
+    let radius = |z: f64| {
+        let z = z.clamp(low, high);
+        let next = diameters.partition_point(|&(at, _)| at <= z).clamp(1, diameters.len() - 1);
+        let [(from, one), (to, other)] = [diameters[next - 1], diameters[next]];
+        (one + (other - one) * ((z - from) / (to - from)).clamp(0.0, 1.0)) / 2.0
+    };
+    let inside = |p: DVec3| radius(p.z) - p.distance(DVec3::Z * p.z.clamp(low, high));
+    let [low, high] = [(low, -1.0), (high, 1.0)].map(|(z, side)| DVec3::new(side * 13.0, side * 13.0, z + side * 13.0));
+    Tree::new(&isosurface(low, high, 0.8, inside)).unwrap()
+}
+
+#[test]
+fn an_artery_that_an_aorta_runs_on_into_has_an_ostium_though_no_branch_begins_there() {
+    // The root of an aorta of 22 mm narrows to 4 mm within 7: the vessel is one branch.
+    for is_upward in [true, false] {
+        let mut vessel = vec![(0.0, 22.0), (70.0, 22.0), (77.0, 4.0), (120.0, 4.0)];
+        let way = if is_upward { 1.0 } else { -1.0 };
+        if !is_upward {
+            vessel = vessel.into_iter().rev().map(|(z, diameter)| (-z, diameter)).collect();
+        }
+        let tree = along_z(&vessel);
+        assert_eq!(tree.branches().len(), 1);
+        let found = tree.ostia();
+        let [(PlaceName::Ostium { branch: 0, diameter_mm }, entry)] = found[..] else { panic!("{found:?}") };
+        near(diameter_mm, 4.0, 0.1);
+        assert!((78.0..81.0).contains(&(way * f64::from(entry.at[2]))), "{entry:?}");
+        assert!(f64::from(entry.direction[2]) * way > 0.99, "{entry:?}");
+        let [aorta, artery] = [10.0, 110.0].map(|z| (DVec3::Z * way * z).as_vec3());
+        assert_eq!(tree.ostium_on_way(aorta, artery), Some(found[0]));
+        assert_eq!(tree.ostium_on_way(artery, aorta), None, "out of the artery");
+        assert_eq!(tree.ostium_on_way(aorta, aorta * 5.0), None, "within the aorta");
+    }
+}
+
+#[test]
+fn what_narrows_gently_or_only_for_a_while_has_no_ostium() {
+    // Down to a femoral artery: 22 mm in the aorta, 10 in the common iliac artery, 5 at the groin.
+    let femoral = [(0.0, 22.0), (60.0, 18.0), (70.0, 10.0), (120.0, 8.0), (170.0, 4.5), (220.0, 4.5)];
+    // A coarctation, and an aneurysm of an artery.
+    let coarctation = [(0.0, 20.0), (60.0, 20.0), (67.0, 4.0), (79.0, 4.0), (86.0, 20.0), (140.0, 20.0)];
+    let aneurysm = [(0.0, 4.5), (40.0, 4.5), (47.0, 14.0), (57.0, 14.0), (64.0, 4.5), (110.0, 4.5)];
+    for vessel in [&femoral, &coarctation, &aneurysm] {
+        let tree = along_z(vessel);
+        assert_eq!(tree.ostia(), []);
+        let [from, to] = [5.0, vessel[5].0 - 5.0].map(|z| Vec3::Z * z as f32);
+        assert!(tree.route(from, to).is_ok());
+        assert_eq!((tree.ostium_on_way(from, to), tree.ostium_on_way(to, from)), (None, None));
+    }
+}
+
 #[test]
 fn a_target_behind_a_turn_back_is_the_last() {
     let (mesh, ends) = aorta(1.0);

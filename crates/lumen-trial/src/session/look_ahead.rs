@@ -140,25 +140,17 @@ impl LookAhead {
 mod tests {
     use std::sync::Arc;
 
-    use glam::DVec3;
-
     use super::*;
     use crate::course::Course;
     use crate::log::Log;
     use crate::setup::{Entry, Setup};
     use crate::wire::Wire;
-    use lumen_mesh::shapes::{in_capsule, isosurface};
+    use lumen_mesh::shapes::parted;
 
     /// A trunk 16 mm wide with a branch half as wide that leaves it by 60°, and a trial on the way into that.
     fn forked(wire: &'static str, next: &[&'static str]) -> Trial {
-        let (sin, cos) = libm::sincos(60.0f64.to_radians());
-        let joint = DVec3::Z * 45.0;
-        let end = joint + DVec3::new(sin, 0.0, cos) * 40.0;
-        let inside = |p: DVec3| {
-            let trunk = in_capsule(p, DVec3::ZERO, DVec3::Z * 90.0, 8.0);
-            trunk.max(in_capsule(p, joint, end, 4.0))
-        };
-        let mesh = Arc::new(isosurface(DVec3::splat(-9.0), DVec3::new(40.0, 9.0, 109.0), 1.0, inside));
+        let (mesh, end) = parted(8.0, 90.0, 40.0, 1.0);
+        let mesh = Arc::new(mesh);
         let mut setup = Setup {
             wire: Wire::preset(wire).unwrap(),
             next_wires: next.iter().map(|wire| Wire::preset(wire).unwrap()).collect(),
