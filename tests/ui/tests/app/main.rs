@@ -17,6 +17,7 @@ mod layout;
 mod light;
 mod measure;
 mod mending;
+mod motion;
 mod opening;
 mod presenter;
 mod record;
