@@ -21,7 +21,8 @@ const CREASE: f64 = 0.906_307_787_036_65;
 const CREASED: f64 = 0.95;
 /// Edges of the least rim.
 const LEAST_RIM: usize = 6;
-/// A rim of fewer edges is one of few. The ends of the thinnest vessels of a mask are flat and round, too: most have 6 to 10.
+/// A rim of fewer edges is one of few, all of which have the crease. The ends of the thinnest vessels of a mask are flat and
+/// round, too: most have 6 to 10.
 const FEW: usize = 12;
 /// Cosine of the least mean crease of a rim of few edges: 65 degrees. That of a mask's end has 45 to 55 where voxels are cubes,
 /// that of a tube 90, however it is cut.
@@ -189,7 +190,7 @@ impl<'a> Search<'a> {
         let corner = |v: u32| self.mesh.positions[v as usize].as_dvec3();
         let (mut area, mut moment, mut normal) = (0.0, DVec3::ZERO, DVec3::ZERO);
         let mut edges: Vec<[u32; 2]> = Vec::new();
-        let (mut length, mut creased, mut cosines) = (0.0, 0.0, 0.0);
+        let (mut length, mut creased, mut cosines, mut is_all) = (0.0, 0.0, 0.0, true);
         for &t in region {
             let triangle = self.mesh.triangles[t as usize];
             let [a, b, c] = triangle.map(corner);
@@ -203,23 +204,27 @@ impl<'a> Search<'a> {
                     continue;
                 }
                 let [from, to] = [triangle[i], triangle[(i + 1) % 3]];
-                edges.push([from, to]);
-                let away = corner(from).distance(corner(to));
-                length += away;
+                let cosine = self.normals[other as usize].dot(self.normals[t as usize]);
                 let apex = self.mesh.triangles[other as usize].into_iter().find(|&v| v != from && v != to)?;
                 let is_behind = (corner(apex) - corner(from)).dot(self.normals[t as usize]) < 0.0;
-                let cosine = self.normals[other as usize].dot(self.normals[t as usize]);
-                cosines += cosine * away;
-                if is_behind && cosine < CREASE {
-                    creased += away;
+                let is_creased = is_behind && cosine < CREASE;
+                // Most regions end here: the facets of what is smooth.
+                if !is_creased && region.len() + 2 < FEW {
+                    return None;
                 }
+                let away = corner(from).distance(corner(to));
+                edges.push([from, to]);
+                length += away;
+                cosines += cosine * away;
+                creased += if is_creased { away } else { 0.0 };
+                is_all &= is_creased;
             }
         }
         if edges.len() < LEAST_RIM || creased < CREASED * length || area <= 0.0 {
             return None;
         }
         let is_round = 2.0 * std::f64::consts::TAU * area > ROUND * length * length;
-        if edges.len() < FEW && !(is_round && cosines < SQUARE * length) {
+        if edges.len() < FEW && !(is_all && is_round && cosines < SQUARE * length) {
             return None;
         }
         let (centre, normal) = (moment / area, normal.normalize_or_zero());
