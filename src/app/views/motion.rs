@@ -27,7 +27,7 @@ pub(super) struct Motion<Of> {
 impl<Of: PartialEq> Motion<Of> {
     /// Of a camera that rests.
     pub(super) fn new(camera: Camera) -> Self {
-        Self { of: None, camera, frame_s: f64::NEG_INFINITY, moved_s: f64::NEG_INFINITY, slow: 0 }
+        Self { of: None, camera, frame_s: 0.0, moved_s: f64::NEG_INFINITY, slow: 0 }
     }
 
     /// Takes the camera of the frame at `now_s`, in s, the window expecting one every `expected_s`. Gives for how long, in s,

@@ -60,7 +60,7 @@ impl Pace {
 
     /// The machine works on something else at `now_s`: that time is not made up for.
     pub(super) fn skip(&mut self, now_s: f64) {
-        (self.clock, self.owed) = (Some(now_s), 0.0);
+        (self.clock, self.owed, self.is_behind) = (Some(now_s), 0.0, false);
     }
 
     /// The trial stands. What time passes until it goes on is not owed.
