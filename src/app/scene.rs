@@ -166,11 +166,8 @@ impl Scene {
             self.light_of = None;
             let coarse = levels.level(Target::Triangles(LIGHT as u32));
             let used = coarse.triangles.as_flattened().iter().max().map_or(0, |&last| last as usize + 1);
-            let positions = &levels.positions[..used];
-            self.light.set_positions(&self.device, &self.queue, positions)?;
-            let normals = vertex_normals(positions, &coarse.triangles, Weighting::Area);
-            let edges = unique_edges(&coarse.triangles, used);
-            self.light.set_level(&self.device, &self.queue, &coarse.triangles, &edges, &normals)?;
+            let mesh = TriMesh { positions: levels.positions[..used].to_vec(), triangles: coarse.triangles };
+            upload(&self.device, &self.queue, &mut self.light, &mesh)?;
             let scalars = self.has_scalars.then(|| scalars(document, self.scalars_of)).flatten();
             self.light.set_scalars(&self.device, &self.queue, scalars.as_deref().and_then(|all| all.get(..used)))?;
             self.light_of = Some(of);
@@ -259,10 +256,12 @@ impl Scene {
         ) else {
             return Ok(view.id());
         };
-        let main = match picture {
-            _ if is_light => &self.light,
-            Picture { before: true, .. } => &self.before,
-            _ => &self.level,
+        let main = if is_light {
+            &self.light
+        } else if picture.before {
+            &self.before
+        } else {
+            &self.level
         };
         // Lines follow with the level: of a surface as it comes from a scan they are one white area.
         let look = if is_whole { Look::Shaded } else { picture.look };

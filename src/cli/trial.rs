@@ -19,7 +19,8 @@ use crate::phantom::Sample;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::safe::PastSafe;
 use crate::pipeline::settings::{Settings, Smoothing, Target};
-use crate::trial::course::Course;
+use crate::trial::course::{Course, TrialError};
+use crate::trial::route::RouteError;
 use crate::trial::session::Trial as Run;
 use crate::trial::setup::{Entry, Press, Setup};
 use crate::trial::summary::Summary;
@@ -146,7 +147,10 @@ impl Trial {
         let run = match trial(&mesh, sample, setup, self.element, true) {
             Ok(run) => run,
             Err(error) => {
-                if let Some(sentence) = past_safe(pipeline)? {
+                // Its own reason counts more than one for which no rate is found.
+                if may_be_narrowed(&error)
+                    && let Ok(Some(sentence)) = past_safe(pipeline)
+                {
                     eprintln!("lumen: warning: {sentence}");
                 }
                 return Err(error);
@@ -299,6 +303,17 @@ fn print(summary: &Summary) {
     );
     if summary.steps_looked_ahead > 0 {
         row("looked ahead", format!("{} steps, beside those of the trial", summary.steps_looked_ahead));
+    }
+}
+
+/// Whether a reduction can be why no trial is possible: not where an entry or target was given in the wrong place.
+fn may_be_narrowed(error: &anyhow::Error) -> bool {
+    use TrialError::{NoEntry, NoTarget, Route};
+    let no_room = |error: &RouteError| matches!(error, RouteError::NoWay { .. } | RouteError::TooThin { .. });
+    match error.downcast_ref() {
+        Some(NoEntry | NoTarget) => true,
+        Some(Route(error)) => no_room(error),
+        _ => false,
     }
 }
 

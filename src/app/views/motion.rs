@@ -21,6 +21,7 @@ pub(super) struct Motion<Of> {
     /// When the last frame was, and the last in which the camera had moved, in s.
     frame_s: f64,
     moved_s: f64,
+    /// Slow frames in a row.
     slow: u32,
 }
 
