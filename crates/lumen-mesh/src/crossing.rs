@@ -13,8 +13,12 @@
 //! Triangle against triangle is Moeller, "A fast triangle-triangle intersection test" (1997), in its form without
 //! divisions; an edge against a triangle is Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection"
 //! (1997). All in f64 on f32 coordinates: where surfaces only touch, rounding decides, as it does in MeshLab.
+//!
+//! A volume mesher is stricter: [`touch`] decides exactly (Shewchuk, "Adaptive precision floating-point arithmetic and fast
+//! robust geometric predicates", 1997; crate `robust`), and what only touches counts.
 
 use glam::{DVec2, DVec3, Vec3};
+use robust::{Coord, Coord3D, orient2d, orient3d};
 
 /// Within this part of a triangle's height from a side, a crossing does not count.
 const EPSILON: f64 = 1e-6;
@@ -41,6 +45,27 @@ pub fn cross(a: &Face, b: &Face) -> bool {
 /// The same, but a crossing as near to a side as can be counts too: what a triangle only touches, or passes by rounding.
 pub fn cross_at_all(a: &Face, b: &Face) -> bool {
     cross_beyond(0.0, a, b)
+}
+
+/// Whether two triangles of a surface share a point besides their common vertices or edge, however little: decided exactly, also
+/// in one plane. Over a common edge they do where they have all vertices in common; whether they lie on each other is not
+/// asked. What has no area counts by its sides alone.
+pub fn touch(a: &Face, b: &Face) -> bool {
+    let [(low_a, high_a), (low_b, high_b)] = [a.corners, b.corners].map(|[p, q, r]| (p.min(q).min(r), p.max(q).max(r)));
+    if !(low_a.cmple(high_b) & low_b.cmple(high_a)).all() {
+        return false;
+    }
+    let own = |one: &Face, other: &Face| (0..3).filter(|&i| !other.vertices.contains(&one.vertices[i])).count();
+    let common = |one: &Face, other: &Face| one.vertices.iter().position(|v| other.vertices.contains(v)).unwrap_or(0);
+    match own(a, b) {
+        3 => edges(a.corners).any(|edge| meets(edge, b.corners)) || edges(b.corners).any(|edge| meets(edge, a.corners)),
+        2 => {
+            // What they share beyond the vertex goes on to the side opposite to it of one of them.
+            let opposite = |corners: [Vec3; 3], at: usize| [corners[(at + 1) % 3], corners[(at + 2) % 3]];
+            meets(opposite(a.corners, common(a, b)), b.corners) || meets(opposite(b.corners, common(b, a)), a.corners)
+        }
+        others => others == 0,
+    }
 }
 
 /// The same, where a crossing within a part of a triangle's height from a side does not count.
@@ -98,6 +123,61 @@ fn crossing(margin: f64, [from, to]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> Optio
         (offset.dot(across) / determinant, direction.dot(turned) / determinant, ac.dot(turned) / determinant);
     let is_on = v >= 0.0 && w >= 0.0 && v + w <= 1.0 && (0.0..=length).contains(&t);
     is_on.then_some(v > margin && w > margin && v + w < 1.0)
+}
+
+fn edges(corners: [Vec3; 3]) -> impl Iterator<Item = [Vec3; 2]> {
+    (0..3).map(move |i| [corners[i], corners[(i + 1) % 3]])
+}
+
+/// Whether a segment and a triangle share a point: exactly.
+fn meets([p, q]: [Vec3; 2], corners: [Vec3; 3]) -> bool {
+    let exact = |p: Vec3| Coord3D { x: p.x, y: p.y, z: p.z };
+    let [a, b, c] = corners.map(exact);
+    let [from, to] = [exact(p), exact(q)];
+    let [above_from, above_to] = [orient3d(a, b, c, from), orient3d(a, b, c, to)];
+    if !is_split(above_from, above_to) {
+        return false;
+    }
+    if above_from == 0.0 && above_to == 0.0 {
+        return meets_in_plane([p, q], corners);
+    }
+    let turns = [orient3d(from, to, a, b), orient3d(from, to, b, c), orient3d(from, to, c, a)];
+    turns.iter().all(|&turn| turn >= 0.0) || turns.iter().all(|&turn| turn <= 0.0)
+}
+
+/// Whether a segment and a triangle of one plane share a point: exactly, seen along the first axis along which the triangle has
+/// an area. One that has none along any meets nothing.
+fn meets_in_plane(segment: [Vec3; 2], corners: [Vec3; 3]) -> bool {
+    let turn = |p, q, r| orient2d::<f32>(p, q, r);
+    let seen = |axis: usize| move |p: Vec3| Coord { x: p[(axis + 1) % 3], y: p[(axis + 2) % 3] };
+    let area = |axis: &usize| {
+        let [a, b, c] = corners.map(seen(*axis));
+        turn(a, b, c) != 0.0
+    };
+    let Some(axis) = (0..3).find(area) else { return false };
+    let [from, to] = segment.map(seen(axis));
+    let [a, b, c] = corners.map(seen(axis));
+    let inside = [turn(a, b, from), turn(b, c, from), turn(c, a, from)];
+    let crosses = |p: Coord<f32>, q: Coord<f32>| {
+        let [first, second] = [turn(from, to, p), turn(from, to, q)];
+        let [third, fourth] = [turn(p, q, from), turn(p, q, to)];
+        if first == 0.0 && second == 0.0 {
+            // All on one line.
+            let overlap = |p: f32, q: f32, r: f32, s: f32| p.min(q) <= r.max(s) && r.min(s) <= p.max(q);
+            return overlap(p.x, q.x, from.x, to.x) && overlap(p.y, q.y, from.y, to.y);
+        }
+        is_split(first, second) && is_split(third, fourth)
+    };
+    inside.iter().all(|&turn| turn >= 0.0)
+        || inside.iter().all(|&turn| turn <= 0.0)
+        || crosses(a, b)
+        || crosses(b, c)
+        || crosses(c, a)
+}
+
+/// Whether two numbers are not both above zero, and not both below.
+fn is_split(a: f64, b: f64) -> bool {
+    (a <= 0.0 && b >= 0.0) || (a >= 0.0 && b <= 0.0)
 }
 
 /// Whether two triangles without a common vertex share a point.
@@ -300,10 +380,54 @@ mod tests {
     }
 
     #[test]
+    fn what_only_touches_is_told_exactly() {
+        // In the plane of the floor: an edge that runs out of a corner into it, and one that runs along its side or away.
+        let from_corner = |x: f32, y: f32, z: f32| Face {
+            vertices: [0, 8, 9],
+            corners: [FLOOR[0], FLOOR[0] + Vec3::new(x, y, z), FLOOR[0] + Vec3::new(x + y, y + x, z + 1.0)],
+        };
+        let least = 1e-30;
+        for (x, y, z, does) in [
+            (1.0, 1.0, 0.0, true),
+            (1.0, 1.0, least, false),
+            (9.0, 0.0, 0.0, true),
+            (9.0, 9.0, 0.0, true),
+            (-1.0, -1.0, 0.0, false),
+            (-1.0, -1.0, least, false),
+        ] {
+            let (floor, wing) = (face(0, FLOOR), from_corner(x, y, z));
+            assert_eq!([touch(&floor, &wing), touch(&wing, &floor)], [does; 2], "{x} {y} {z}");
+        }
+        // A flat cap along an axis has a box without volume: another in its plane, a needle that stands on it, one just above.
+        let shifted = |by: Vec3| face(3, FLOOR.map(|p| p + by));
+        let standing = |z: f32| face(3, [Vec3::new(0.0, 0.0, z), Vec3::new(0.1, 0.2, 2.0), Vec3::new(0.0, 0.1, 2.0)]);
+        for (other, does) in [
+            (shifted(Vec3::new(0.5, 0.5, 0.0)), true),
+            (shifted(Vec3::new(5.0, 5.0, 0.0)), false),
+            (shifted(Vec3::new(0.5, 0.5, least)), false),
+            // It ends on the long side, and ends short of it.
+            (shifted(Vec3::new(2.0, 2.0, 0.0)), true),
+            (shifted(Vec3::new(2.0, 2.0 + 2e-7, 0.0)), false),
+            (standing(0.0), true),
+            (standing(-1.0), true),
+            (standing(least), false),
+        ] {
+            assert_eq!([touch(&face(0, FLOOR), &other), touch(&other, &face(0, FLOOR))], [does; 2], "{other:?}");
+        }
+        // A small one within a large one of its plane has no side in common with it.
+        let small = face(3, FLOOR.map(|p| p * 0.1));
+        assert!(touch(&small, &face(0, FLOOR)) && touch(&face(0, FLOOR), &small));
+        let twice = Face { vertices: [2, 0, 1], corners: [FLOOR[2], FLOOR[0], FLOOR[1]] };
+        let beside = Face { vertices: [0, 1, 3], corners: [FLOOR[0], FLOOR[1], FLOOR[2]] };
+        assert!(touch(&face(0, FLOOR), &twice) && !touch(&face(0, FLOOR), &beside));
+    }
+
+    #[test]
     fn nothing_crosses_what_is_no_place() {
         let broken = [Vec3::new(f32::NAN, 0.0, -1.0), Vec3::new(0.1, f32::INFINITY, -1.0), Vec3::new(0.0, 0.0, 1.0)];
         assert!(!cross(&face(0, FLOOR), &face(3, broken)));
         assert!(!cross(&face(0, FLOOR), &face(3, [Vec3::ZERO; 3])));
+        assert!(!touch(&face(0, FLOOR), &face(3, broken)));
     }
 
     fn corners() -> impl Strategy<Value = [Vec3; 3]> {
@@ -328,6 +452,7 @@ mod tests {
         #[test]
         fn signs_of_volumes_say_the_same(p in corners(), q in corners()) {
             prop_assert_eq!(cross(&face(0, p), &face(3, q)), by_volumes(p, q));
+            prop_assert_eq!(touch(&face(0, p), &face(3, q)), by_volumes(p, q));
         }
 
         #[test]
@@ -336,6 +461,50 @@ mod tests {
             let turned = Face { vertices: [5, 4, 3], corners: [q[2], q[1], q[0]] };
             prop_assert_eq!(cross(&a, &b), cross(&b, &a));
             prop_assert_eq!(cross(&a, &b), cross(&a, &turned));
+        }
+
+        /// Of triangles with one common vertex, what crosses touches, and in general position what touches crosses.
+        #[test]
+        fn at_a_common_vertex_touching_is_crossing(p in corners(), q in corners()) {
+            let (a, b) = (face(0, p), Face { vertices: [7, 0, 8], corners: [q[0], p[0], q[1]] });
+            prop_assert_eq!(touch(&a, &b), cross(&a, &b));
+            prop_assert_eq!(touch(&a, &b), touch(&b, &a));
+        }
+
+        /// On a grid of whole numbers much lies in one plane or on one line; 1-D, 2-D and 3-D answers come by brute force in
+        /// whole numbers: the closed triangles are apart if and only if one of the directions below parts them.
+        #[test]
+        fn on_a_grid_a_parting_plane_says_the_same(
+            p in prop::array::uniform3(prop::array::uniform3(-3i64..4)),
+            q in prop::array::uniform3(prop::array::uniform3(-3i64..4)),
+        ) {
+            let minus = |a: [i64; 3], b: [i64; 3]| [0, 1, 2].map(|i| a[i] - b[i]);
+            let dot = |a: [i64; 3], b: [i64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+            let times = |a: [i64; 3], b: [i64; 3]| {
+                [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+            };
+            let sides = |t: [[i64; 3]; 3]| [0, 1, 2].map(|i| minus(t[(i + 1) % 3], t[i]));
+            let normals = [p, q].map(|t| times(sides(t)[0], sides(t)[1]));
+            prop_assume!(normals.iter().all(|n| *n != [0; 3]));
+            // The axes of the separating axis theorem, those within each plane among them.
+            let mut axes = normals.to_vec();
+            for e in sides(p) {
+                axes.extend(sides(q).map(|f| times(e, f)));
+            }
+            for (n, t) in normals.into_iter().zip([p, q]) {
+                axes.extend(sides(t).map(|e| times(n, e)));
+            }
+            let is_parted = axes.into_iter().any(|axis| {
+                let [low_p, high_p, low_q, high_q] = [
+                    p.map(|v| dot(axis, v)).into_iter().min(),
+                    p.map(|v| dot(axis, v)).into_iter().max(),
+                    q.map(|v| dot(axis, v)).into_iter().min(),
+                    q.map(|v| dot(axis, v)).into_iter().max(),
+                ];
+                high_p < low_q || high_q < low_p
+            });
+            let corners = |t: [[i64; 3]; 3]| t.map(|v| Vec3::from(v.map(|x| x as f32)));
+            prop_assert_eq!(touch(&face(0, corners(p)), &face(3, corners(q))), !is_parted);
         }
     }
 }

@@ -67,7 +67,7 @@ pub use refit::refitted;
 pub use roughness::{Roughness, roughness};
 pub use roughness::{bends, summarise_bends};
 pub use self_intersections::{Crossing, Indexed};
-pub use self_intersections::{self_intersections, self_intersections_in};
+pub use self_intersections::{self_intersections, self_intersections_in, touching_in};
 pub use shuffle::shuffled;
 pub use topology::opposite;
 pub use topology::{EdgeCounts, EdgeUse, Topology};

@@ -11,7 +11,7 @@ use glam::{Vec3, Vec4};
 
 use super::TriMesh;
 use super::branches::{Branch, Branches};
-use super::crossing::{Face, cross};
+use super::crossing::{Face, cross, touch};
 use super::high_valence::{HighValenceVertices, half_way_box};
 use super::nearest::{Leaf, Node, STACK, SurfaceIndex};
 use super::patch::{Extent, Patch};
@@ -37,7 +37,15 @@ pub fn self_intersections(mesh: &TriMesh) -> Vec<u32> {
 
 /// As [`self_intersections`]; `index` and `topology` must be those of `mesh`.
 pub fn self_intersections_in(mesh: &TriMesh, index: &SurfaceIndex, topology: Option<&Topology>) -> Vec<u32> {
-    let crossing = Crossing::none(index, &mesh.triangles);
+    marked(mesh, index, topology, Crossing::none(index, &mesh.triangles))
+}
+
+/// As [`self_intersections_in`], of triangles that [`touch`] another: what a volume mesher refuses.
+pub fn touching_in(mesh: &TriMesh, index: &SurfaceIndex, topology: Option<&Topology>) -> Vec<u32> {
+    marked(mesh, index, topology, Crossing { is_exact: true, ..Crossing::none(index, &mesh.triangles) })
+}
+
+fn marked(mesh: &TriMesh, index: &SurfaceIndex, topology: Option<&Topology>, crossing: Crossing) -> Vec<u32> {
     let surface = Indexed { mesh, topology };
     parallel::map_ranges(index.slots(), PIECE, |slots| index.mark_crossings(surface, slots, &crossing));
     crossing.triangles().collect()
@@ -53,6 +61,8 @@ pub struct Crossing {
     /// The search goes from one to the next.
     branches: Branches,
     high_valence: HighValenceVertices,
+    /// Whether what only touches counts.
+    is_exact: bool,
 }
 
 impl Crossing {
@@ -60,7 +70,8 @@ impl Crossing {
     pub fn none(index: &SurfaceIndex, triangles: &[[u32; 3]]) -> Self {
         let none = || (0..triangles.len()).map(|_| AtomicBool::new(false)).collect();
         let branches = Branches::of(index, GROUP);
-        Self { does: none(), was_asked: none(), branches, high_valence: HighValenceVertices::of(index, triangles) }
+        let high_valence = HighValenceVertices::of(index, triangles);
+        Self { does: none(), was_asked: none(), branches, high_valence, is_exact: false }
     }
 
     /// Those that do, ascending.
@@ -191,10 +202,11 @@ fn mark_pair(mesh: &TriMesh, leaf: &Leaf, other: &Leaf, crossing: &Crossing) {
     }
     let [face, other_face] =
         [leaf, other].map(|leaf| Face { vertices: mesh.triangles[leaf.triangle as usize], corners: leaf.corners });
+    let meet = if crossing.is_exact { touch } else { cross };
     let meets = match leaf.triangle.cmp(&other.triangle) {
-        Less => cross(&face, &other_face),
+        Less => meet(&face, &other_face),
         Equal => false,
-        Greater => cross(&other_face, &face),
+        Greater => meet(&other_face, &face),
     };
     if meets {
         crossing.mark(leaf.triangle);
@@ -285,10 +297,14 @@ mod tests {
 
     /// Pair by pair.
     fn one_by_one(mesh: &TriMesh) -> Vec<u32> {
+        pairs_that(cross, mesh)
+    }
+
+    fn pairs_that(meet: impl Fn(&Face, &Face) -> bool, mesh: &TriMesh) -> Vec<u32> {
         let face = |t: usize| Face { vertices: mesh.triangles[t], corners: mesh.corners(t) };
         let count = mesh.triangles.len();
         let pairs = (0..count).flat_map(|s| (s + 1..count).map(move |t| (s, t)));
-        let crossing = pairs.filter(|&(s, t)| cross(&face(s), &face(t)));
+        let crossing = pairs.filter(|&(s, t)| meet(&face(s), &face(t)));
         distinct(crossing.flat_map(|(s, t)| [s as u32, t as u32]).collect())
     }
 
@@ -437,6 +453,15 @@ mod tests {
         #[test]
         fn around_two_hubs_no_pair_is_missed(mesh in two_hubs()) {
             prop_assert_eq!(self_intersections(&mesh), one_by_one(&mesh));
+        }
+
+        /// Rounded to a grid, much touches without crossing.
+        #[test]
+        fn of_what_only_touches_no_pair_is_missed(mesh in prop_oneof![soup(), two_hubs()], grid in 0.25f32..2.0) {
+            let mut mesh = mesh;
+            mesh.positions.iter_mut().for_each(|p| *p = (*p / grid).round() * grid);
+            let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+            prop_assert_eq!(touching_in(&mesh, &index, None), pairs_that(touch, &mesh));
         }
 
         /// Halving all lengths and exchanging the axes is exact in floating point.

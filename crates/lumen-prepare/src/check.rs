@@ -10,15 +10,12 @@
 
 use glam::{DVec3, Vec3};
 
-use lumen_mesh::{
-    Components, Topology, TriMesh, boundary_loops, compacted, components, corner_angles, self_intersections,
-    triangle_area,
-};
+use lumen_mesh::{Components, Topology, TriMesh, boundary_loops, compacted, components, corner_angles, triangle_area};
 use lumen_message::messages;
 use serde::{Deserialize, Serialize};
 
 use crate::Patched;
-use crate::folds::folds;
+use crate::folds::{folds, touching};
 
 /// The most places that a finding names.
 const PLACES: usize = 20;
@@ -63,7 +60,7 @@ messages! {
             /// How many.
             count: usize,
         } => (count, "One triangle has no area.", "{count} triangles have no area."),
-        /// Triangles that run into others.
+        /// Triangles that run into others, or touch them.
         "check-crossing" Crossing {
             /// How many.
             count: usize,
@@ -201,7 +198,7 @@ pub fn check(surface: &Patched) -> Fate {
     let shared = edges(&whole, &topology, lumen_mesh::EdgeUse::is_non_manifold);
     let windings = edges(&whole, &topology, lumen_mesh::EdgeUse::is_flipped);
     let (coincident, duplicates) = (coincident(&whole), duplicates(&whole));
-    let (crossing, folds) = (self_intersections(&whole), folds(&whole));
+    let (crossing, folds) = (touching(&whole), folds(&whole));
     let volumes = volumes(&whole, &topology, &pieces);
     let inside_out = of_shape(&volumes, |volume| volume.is_some_and(|volume| volume < 0.0));
 

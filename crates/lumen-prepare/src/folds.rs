@@ -1,10 +1,13 @@
-//! Triangles that are folded onto a neighbour.
+//! Triangles that a volume mesher refuses: those that touch others, and those that are folded onto a neighbour.
+//!
+//! TetGen and Gmsh decide exactly: an edge of the wall that lies in the plane of a cap and joins two places of its rim stops
+//! them, though nothing runs through anything.
 //!
 //! Two triangles that share an edge do not cross, however sharply the surface turns there. TetGen takes two that lie
 //! within 0.1 degrees of each other for one that is there twice, and no volume mesher makes good cells between them.
 
-use lumen_mesh::crossing::{Face, cross};
-use lumen_mesh::{SurfaceIndex, Topology, TriMesh, Vec3, self_intersections, self_intersections_in};
+use lumen_mesh::crossing::{Face, touch};
+use lumen_mesh::{SurfaceIndex, Topology, TriMesh, Vec3, touching_in};
 
 /// Two triangles at an edge are folded where the angle between them is smaller, in degrees. A thin plate has its sides at
 /// edges of two right angles; so sharp an edge is a fault of a mesh.
@@ -29,14 +32,25 @@ fn folds_in(mesh: &TriMesh, topology: &Topology) -> Vec<[u32; 2]> {
     found
 }
 
-/// The triangles that run into others or are folded onto a neighbour, ascending.
+/// The triangles that share a point with another besides their common vertices or edge, ascending; each has three vertices.
+pub(crate) fn touching(mesh: &TriMesh) -> Vec<u32> {
+    let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+    touching_in(mesh, &index, Some(&Topology::new(mesh.positions.len(), &mesh.triangles)))
+}
+
+/// The triangles that touch others or are folded onto a neighbour, ascending.
 pub(crate) fn clashing(mesh: &TriMesh) -> Vec<u32> {
-    all_of(self_intersections(mesh), &folds(mesh))
+    let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+    clashing_in(mesh, &index, &Topology::new(mesh.positions.len(), &mesh.triangles))
 }
 
 /// As [`clashing`], of a surface whose index and adjacency are known.
 pub(crate) fn clashing_in(mesh: &TriMesh, index: &SurfaceIndex, topology: &Topology) -> Vec<u32> {
-    all_of(self_intersections_in(mesh, index, Some(topology)), &folds_in(mesh, topology))
+    let mut all = touching_in(mesh, index, Some(topology));
+    all.extend(folds_in(mesh, topology).as_flattened());
+    all.sort_unstable();
+    all.dedup();
+    all
 }
 
 /// Those of `triangles`, a few of a surface whose edges have two triangles at most, that [`clashing_in`] finds, in their order.
@@ -53,16 +67,9 @@ pub(crate) fn clashing_of(mesh: &TriMesh, index: &SurfaceIndex, mut triangles: V
     triangles
 }
 
-fn all_of(mut all: Vec<u32>, folds: &[[u32; 2]]) -> Vec<u32> {
-    all.extend(folds.as_flattened());
-    all.sort_unstable();
-    all.dedup();
-    all
-}
-
-/// Whether two triangles cross or are folded onto each other.
+/// Whether two triangles touch or are folded onto each other.
 pub(crate) fn clash(a: &Face, b: &Face) -> bool {
-    cross(a, b) || is_folded(a, b)
+    touch(a, b) || is_folded(a, b)
 }
 
 /// Whether two triangles share an edge and lie on each other.
@@ -124,7 +131,7 @@ pub(crate) mod tests {
         let index = SurfaceIndex::new(&folded.positions, &folded.triangles);
         let all = (0..folded.triangles.len() as u32).collect();
         assert_eq!(clashing_of(&folded, &index, all), clashing(&folded));
-        assert!(self_intersections(&folded).is_empty());
+        assert!(touching(&folded).is_empty());
         assert_eq!(folds(&folded).len(), 3, "a triangle that is turned over lies on all its neighbours");
         // Flat is the opposite of folded.
         assert!(folds(&hinge(180.0)).is_empty());

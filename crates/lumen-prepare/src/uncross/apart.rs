@@ -229,9 +229,12 @@ impl<'a> Pushing<'a> {
     }
 
     /// Whether a triangle of a region crosses another once its vertices are at `places`. What is of another place that is not
-    /// mended does not count.
+    /// mended does not count. Places that are not finite, as the normals of 1e30 mm make them, are none to go to.
     fn crosses(&self, region: &Region, places: &[Vec3]) -> bool {
         let Surface { mesh, index, .. } = self.surface;
+        if !places.iter().all(|p| p.is_finite()) {
+            return true;
+        }
         let sheet = self.sheet(region, places);
         let own = SurfaceIndex::new(&sheet.positions, &sheet.triangles);
         let is_foreign = |t: u32| ![NONE, region.number].contains(&self.cluster_of[t as usize]);

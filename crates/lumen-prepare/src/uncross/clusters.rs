@@ -7,7 +7,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use lumen_mesh::crossing::{Face, cross};
+use lumen_mesh::crossing::{Face, touch};
 use lumen_mesh::disjoint_sets::{root, union};
 
 use super::{Place, Remedy, Surface};
@@ -43,7 +43,7 @@ pub(super) fn clusters(surface: &Surface, crossing: &[u32]) -> Vec<Cluster> {
         let (low, high) = bounds(face.corners);
         index.for_each_near(low, high, |other| {
             let is_new = other > t && is_in[other as usize] && root(&mut parent, t) != root(&mut parent, other);
-            if is_new && cross(&face, &surface.face(other)) {
+            if is_new && touch(&face, &surface.face(other)) {
                 union(&mut parent, t, other);
             }
         });
