@@ -49,6 +49,21 @@ fn a_fold_crosses_nothing_and_stops_a_mesher_at_its_place() {
     assert!(one.distance(DVec3::from_array(fate.findings[0].places[0])) < one.distance(other) + 1e-3);
 }
 
+/// TetGen 1.6 (`-pY`) refuses a wall whose edge lies in the plane of a cap, or above it, and fills it where it lies below.
+#[test]
+fn a_wall_that_touches_a_cap_stops_a_mesher_though_nothing_crosses() {
+    for (height, is_refused) in [(0.0, true), (0.1, true), (-1e-6, false), (-0.1, false)] {
+        let places = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, -3), (3, 3, -3)];
+        let mut positions = places.map(|(x, y, z)| Vec3::new(x as f32, y as f32, z as f32)).to_vec();
+        positions[1].z = height;
+        // A cap of two triangles, and two pyramids below it with the cap's other diagonal as their common edge.
+        let triangles = vec![[0, 1, 2], [0, 2, 3], [1, 0, 4], [0, 3, 4], [3, 1, 4], [3, 2, 5], [2, 1, 5], [1, 3, 5]];
+        let found = faults(TriMesh { positions, triangles });
+        assert_eq!(found.iter().any(Fault::stops), is_refused, "{height}: {found:?}");
+        assert_eq!(found.contains(&Fault::Crossing { count: 4 }), is_refused, "{height}: {found:?}");
+    }
+}
+
 #[test]
 fn a_turned_triangle_disagrees_with_three_neighbours() {
     let mut mesh = icosphere(3, 5.0, Vec3::ZERO);
