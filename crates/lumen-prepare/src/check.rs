@@ -64,7 +64,7 @@ messages! {
         "check-crossing" Crossing {
             /// How many.
             count: usize,
-        } => (count, "One triangle runs into another.", "{count} triangles run into others."),
+        } => (count, "One triangle runs into another or touches it.", "{count} triangles run into others or touch them."),
         /// Neighbours with less than [`FOLD_DEGREES`](crate::folds::FOLD_DEGREES) between them.
         "check-folds" Folds {
             /// Edges between them.

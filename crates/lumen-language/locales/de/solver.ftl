@@ -103,8 +103,8 @@ check-degenerate = { $count ->
    *[other] { $count } Dreiecke haben keine Fläche.
 }
 check-crossing = { $count ->
-    [one] Ein Dreieck ragt in ein anderes.
-   *[other] { $count } Dreiecke ragen in andere.
+    [one] Ein Dreieck ragt in ein anderes oder berührt es.
+   *[other] { $count } Dreiecke ragen in andere oder berühren sie.
 }
 check-folds = { $count ->
     [one] Die Oberfläche ist an einer Kante auf sich selbst gefaltet.

@@ -103,8 +103,8 @@ check-degenerate = { $count ->
    *[other] { $count } triangles n'ont pas d'aire.
 }
 check-crossing = { $count ->
-    [one] Un triangle en traverse un autre.
-   *[other] { $count } triangles en traversent d'autres.
+    [one] Un triangle en traverse ou en touche un autre.
+   *[other] { $count } triangles en traversent ou en touchent d'autres.
 }
 check-folds = { $count ->
     [one] La surface est repliée sur elle-même le long d'une arête.
