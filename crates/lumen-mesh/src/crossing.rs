@@ -58,6 +58,7 @@ pub fn touch(a: &Face, b: &Face) -> bool {
     let own = |one: &Face, other: &Face| (0..3).filter(|&i| !other.vertices.contains(&one.vertices[i])).count();
     let common = |one: &Face, other: &Face| one.vertices.iter().position(|v| other.vertices.contains(v)).unwrap_or(0);
     match own(a, b) {
+        3 if is_beyond(&a.corners, b.corners) || is_beyond(&b.corners, a.corners) => false,
         3 => edges(a.corners).any(|edge| meets(edge, b.corners)) || edges(b.corners).any(|edge| meets(edge, a.corners)),
         2 => {
             // What they share beyond the vertex goes on to the side opposite to it of one of them.
@@ -129,8 +130,27 @@ fn edges(corners: [Vec3; 3]) -> impl Iterator<Item = [Vec3; 2]> {
     (0..3).map(move |i| [corners[i], corners[(i + 1) % 3]])
 }
 
+/// Whether all points lie to one side of a triangle's plane, by more than what `f64` may be off.
+fn is_beyond(points: &[Vec3], corners: [Vec3; 3]) -> bool {
+    /// Some 16 roundings of 2^-53 of products of three lengths: 2e-15, and five times that to be sure.
+    const ROUNDING: f64 = 1e-14;
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let (ab, ac) = (b - a, c - a);
+    let normal = ab.cross(ac);
+    let most = ROUNDING * ab.abs().element_sum() * ac.abs().element_sum();
+    let side = |p: &Vec3| {
+        let way = p.as_dvec3() - a;
+        let above = normal.dot(way);
+        if above.abs() > most * way.abs().element_sum() { above } else { 0.0 }
+    };
+    points.iter().all(|p| side(p) > 0.0) || points.iter().all(|p| side(p) < 0.0)
+}
+
 /// Whether a segment and a triangle share a point: exactly.
 fn meets([p, q]: [Vec3; 2], corners: [Vec3; 3]) -> bool {
+    if is_beyond(&[p, q], corners) {
+        return false;
+    }
     let exact = |p: Vec3| Coord3D { x: p.x, y: p.y, z: p.z };
     let [a, b, c] = corners.map(exact);
     let [from, to] = [exact(p), exact(q)];
