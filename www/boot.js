@@ -134,6 +134,21 @@ async function checkPixels(canvas) {
   }
 }
 
+/**
+ * egui's shader asks at each pixel whether it is to filter textures by hand, which it never is here. Where the processor draws
+ * (SwiftShader, llvmpipe) both ways are taken at each pixel, and a frame takes more than twice as long: so the question is
+ * answered beforehand. What is not found stays as it is. (egui-wgpu 0.37 gives no way to another shader.)
+ */
+function lightenShaders() {
+  const FILTERED = /(uint (\w+) = \w+\.predictable_texture_filtering;\s*if \()\(\2 == 0u\)\)/;
+  const { prototype } = globalThis.WebGL2RenderingContext ?? {};
+  const plain = prototype?.shaderSource;
+  if (!plain) return;
+  prototype.shaderSource = function (shader, source) {
+    plain.call(this, shader, source.replace(FILTERED, "$1true)"));
+  };
+}
+
 /** Lets a newer build begin where one waits and this page is the only one; says whether the page starts again with it. */
 async function givesWay() {
   // Where the browser keeps nothing, nothing waits.
@@ -199,6 +214,7 @@ async function start() {
   }
   document.getElementById("loading-text").textContent = "Starting";
   await checkPixels(document.getElementById("lumen"));
+  lightenShaders();
   // What is kept here costs no download, and asking a server for it in the middle of a call would fail without a network.
   const isKept = navigator.serviceWorker?.controller;
   if (isKept) await bring(late, module);

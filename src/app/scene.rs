@@ -11,7 +11,7 @@ use super::options::Colours;
 use super::scan::slices::SlicePicture;
 use super::window_texture::WindowTarget;
 use super::{arrays, classes};
-use crate::mesh::{TriMesh, Vec3};
+use crate::mesh::{TriMesh, Vec3, clustered};
 use crate::pipeline::normals::{Weighting, vertex_normals, vertex_normals_into};
 use crate::pipeline::settings::{Keep, Target};
 use crate::render::{
@@ -22,9 +22,6 @@ use crate::render::{
 /// The two views, side by side, and what is revealed behind each.
 pub(super) const VIEWS: usize = 4;
 
-/// Triangles of a light picture.
-const LIGHT: usize = 20_000;
-
 /// What one view shows.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Picture {
@@ -32,8 +29,8 @@ pub(super) struct Picture {
     pub camera: Camera,
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Of few triangles.
-    pub is_light: bool,
+    /// The most triangles of a surface, where it is to be drawn quickly.
+    pub light: Option<usize>,
     /// How the surface is shown.
     pub look: Look,
     /// The theme's colours.
@@ -64,7 +61,10 @@ pub(super) struct Scene {
     level: GpuSurface,
     /// Fewer triangles of a large level, and of which it was made.
     light: GpuSurface,
-    light_of: Option<(Revision, Colours)>,
+    light_of: Option<(Revision, Colours, usize)>,
+    /// Fewer of a large surface as it was opened.
+    light_before: GpuSurface,
+    light_before_of: Option<(Before, usize)>,
     before: GpuSurface,
     left_out: GpuSurface,
     slices: Vec<(u64, GpuSlice)>,
@@ -95,6 +95,8 @@ impl Scene {
             level: surface()?,
             light: surface()?,
             light_of: None,
+            light_before: surface()?,
+            light_before_of: None,
             before: surface()?,
             left_out: surface()?,
             slices: Vec::new(),
@@ -155,22 +157,38 @@ impl Scene {
         Ok(())
     }
 
-    /// Makes a coarser level of one that has more than [`LIGHT`] triangles; whether there is one.
-    fn follow_light(&mut self, document: &Document) -> Result<bool, SurfaceError> {
+    /// Makes a coarser level of one that has more than `most` triangles; whether there is one.
+    fn follow_light(&mut self, document: &Document, most: usize) -> Result<bool, SurfaceError> {
         let (Some((_, levels)), Some(shown)) = (&document.levels, &document.shown) else { return Ok(false) };
-        if shown.level.triangles.len() <= LIGHT {
+        if shown.level.triangles.len() <= most {
             return Ok(false);
         }
-        let of = (self.revision, self.scalars_of);
+        let of = (self.revision, self.scalars_of, most);
         if self.light_of != Some(of) {
             self.light_of = None;
-            let coarse = levels.level(Target::Triangles(LIGHT as u32));
+            let coarse = levels.level(Target::Triangles(most as u32));
             let used = coarse.triangles.as_flattened().iter().max().map_or(0, |&last| last as usize + 1);
             let mesh = TriMesh { positions: levels.positions[..used].to_vec(), triangles: coarse.triangles };
             upload(&self.device, &self.queue, &mut self.light, &mesh)?;
             let scalars = self.has_scalars.then(|| scalars(document, self.scalars_of)).flatten();
             self.light.set_scalars(&self.device, &self.queue, scalars.as_deref().and_then(|all| all.get(..used)))?;
             self.light_of = Some(of);
+        }
+        Ok(true)
+    }
+
+    /// Makes a coarser copy of the kept pieces as they were opened, where they have more than `most` triangles; whether there is
+    /// one.
+    fn follow_light_before(&mut self, document: &Document, keep: Keep, most: usize) -> Result<bool, SurfaceError> {
+        let Some(of @ Before::Kept(..)) = self.before_of else { return Ok(false) };
+        if self.before.triangle_count() as usize <= most {
+            return Ok(false);
+        }
+        let of = (of, most);
+        if self.light_before_of != Some(of) {
+            self.light_before_of = None;
+            upload(&self.device, &self.queue, &mut self.light_before, &clustered(&document.before(keep), most))?;
+            self.light_before_of = Some(of);
         }
         Ok(true)
     }
@@ -244,9 +262,11 @@ impl Scene {
                 self.follow_left_out(document, keep)?;
             }
         }
-        let is_light = picture.is_light
-            && !picture.before
-            && document.map_or(Ok(false), |document| self.follow_light(document))?;
+        let is_light = match document.zip(picture.light) {
+            Some((document, most)) if picture.before => self.follow_light_before(document, keep, most)?,
+            Some((document, most)) => self.follow_light(document, most)?,
+            None => false,
+        };
         let is_whole = picture.before && matches!(self.before_of, Some(Before::Whole(..)));
         let view = &mut self.views[index];
         let Some(target) = view.stale(
@@ -256,12 +276,11 @@ impl Scene {
         ) else {
             return Ok(view.id());
         };
-        let main = if is_light {
-            &self.light
-        } else if picture.before {
-            &self.before
-        } else {
-            &self.level
+        let main = match (picture.before, is_light) {
+            (false, false) => &self.level,
+            (false, true) => &self.light,
+            (true, false) => &self.before,
+            (true, true) => &self.light_before,
         };
         // Lines follow with the level: of a surface as it comes from a scan they are one white area.
         let look = if is_whole { Look::Shaded } else { picture.look };

@@ -57,6 +57,23 @@ async function arranged(page) {
   };
 }
 
+test("egui's shader has no way that is never taken", async (t) => {
+  // What reaches the browser, after the page has had it.
+  const keepSources = () => {
+    const { prototype } = WebGL2RenderingContext;
+    const plain = prototype.shaderSource;
+    window.sources = [];
+    prototype.shaderSource = function (shader, source) {
+      window.sources.push(source);
+      plain.call(this, shader, source);
+    };
+  };
+  const { page } = await openApp(t, webgl, { context: COARSE, before: (page) => page.addInitScript(keepSources) });
+  const of_egui = (await page.evaluate(() => window.sources)).filter((source) => /\.predictable_texture_filtering;/.test(source));
+  assert.equal(of_egui.length, 1, "one shader filters");
+  assert.match(of_egui[0], /predictable_texture_filtering;\s*if \(true\)/);
+});
+
 test("a lost WebGL2 context is made again, and all is as it was", async (t) => {
   const { page, wrong } = await openApp(t, webgl, { context: COARSE });
   const asItWas = await arranged(page);

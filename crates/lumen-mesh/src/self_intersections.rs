@@ -37,17 +37,17 @@ pub fn self_intersections(mesh: &TriMesh) -> Vec<u32> {
 
 /// As [`self_intersections`]; `index` and `topology` must be those of `mesh`.
 pub fn self_intersections_in(mesh: &TriMesh, index: &SurfaceIndex, topology: Option<&Topology>) -> Vec<u32> {
-    marked(mesh, index, topology, Crossing::none(index, &mesh.triangles))
+    marked(mesh, index, topology, &Crossing::none(index, &mesh.triangles))
 }
 
 /// As [`self_intersections_in`], of triangles that [`touch`] another: what a volume mesher refuses.
 pub fn touching_in(mesh: &TriMesh, index: &SurfaceIndex, topology: Option<&Topology>) -> Vec<u32> {
-    marked(mesh, index, topology, Crossing { is_exact: true, ..Crossing::none(index, &mesh.triangles) })
+    marked(mesh, index, topology, &Crossing { is_exact: true, ..Crossing::none(index, &mesh.triangles) })
 }
 
-fn marked(mesh: &TriMesh, index: &SurfaceIndex, topology: Option<&Topology>, crossing: Crossing) -> Vec<u32> {
+fn marked(mesh: &TriMesh, index: &SurfaceIndex, topology: Option<&Topology>, crossing: &Crossing) -> Vec<u32> {
     let surface = Indexed { mesh, topology };
-    parallel::map_ranges(index.slots(), PIECE, |slots| index.mark_crossings(surface, slots, &crossing));
+    parallel::map_ranges(index.slots(), PIECE, |slots| index.mark_crossings(surface, slots, crossing));
     crossing.triangles().collect()
 }
 

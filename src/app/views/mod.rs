@@ -128,8 +128,8 @@ pub struct Views {
     /// Frames a second while something moves.
     frames_per_second: Option<f32>,
     motion: Motion<Revision>,
-    /// Whether pictures are light in this frame.
-    is_light: bool,
+    /// The most triangles of a surface, while pictures are light.
+    light: Option<usize>,
 }
 
 impl Views {
@@ -156,7 +156,7 @@ impl Views {
             flies: false,
             frames_per_second: None,
             motion: Motion::new(Camera::default()),
-            is_light: false,
+            light: None,
         };
         views.options.occlusion = render_state.is_some_and(draws_fast);
         views.set_device(render_state);
@@ -334,10 +334,10 @@ impl Views {
         let (now_s, expected_s) = ui.input(|input| (input.time, f64::from(input.predicted_dt)));
         // Numbers of the level change nothing that is drawn.
         let of = Revision { measured: 0, ..document.map(|document| document.revision).unwrap_or_default() };
-        let left_s = self.motion.follow(of, self.camera, now_s, expected_s);
-        self.is_light = left_s.is_some();
-        if let Some(left_s) = left_s {
-            ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(left_s));
+        let light = self.motion.follow(of, self.camera, now_s, expected_s);
+        self.light = light.map(|light| light.most);
+        if let Some(light) = light {
+            ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(light.left_s));
         }
     }
 

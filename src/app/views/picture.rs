@@ -122,8 +122,8 @@ impl Views {
         let corners: Vec<Vec3> = self.slices.iter().flat_map(|slice| slice.corners).collect();
         Picture {
             camera: Camera { bounds: self.camera.bounds.joined(&Bounds::of(&corners)), ..self.camera },
-            size: pixels(ui, rect).map(|side| if self.is_light { side.div_ceil(2) } else { side }),
-            is_light: self.is_light,
+            size: pixels(ui, rect).map(|side| if self.light.is_some() { side.div_ceil(2) } else { side }),
+            light: self.light,
             look,
             style,
             before: self.show_before,
