@@ -69,9 +69,9 @@ test("egui's shader has no way that is never taken", async (t) => {
     };
   };
   const { page } = await openApp(t, webgl, { context: COARSE, before: (page) => page.addInitScript(keepSources) });
-  const of_egui = (await page.evaluate(() => window.sources)).filter((source) => /\.predictable_texture_filtering;/.test(source));
-  assert.equal(of_egui.length, 1, "one shader filters");
-  assert.match(of_egui[0], /predictable_texture_filtering;\s*if \(true\)/);
+  const ofEgui = (await page.evaluate(() => window.sources)).filter((source) => /\.predictable_texture_filtering;/.test(source));
+  assert.equal(ofEgui.length, 1, "one shader filters");
+  assert.match(ofEgui[0], /predictable_texture_filtering;\s*if \(true\)/);
 });
 
 test("a lost WebGL2 context is made again, and all is as it was", async (t) => {
