@@ -348,29 +348,31 @@ impl LumenApp {
     /// Shows the views, and what lies over them.
     pub(super) fn centre(&mut self, ui: &mut Ui) {
         let (mode, keep) = (self.mode(), self.state.settings.keep);
-        let asked = CentralPanel::default()
-            .frame(Frame::new().fill(ui.visuals().widgets.noninteractive.bg_stroke.color))
-            .show(ui, |ui| {
-                if std::mem::take(&mut self.look_next) {
-                    self.views.look_first(self.state.document.as_ref(), keep);
-                    self.recovery.look(&mut self.views.camera);
-                }
-                self.sharing.look(&mut self.views.camera);
-                for filling in self.panels.filling_mut() {
-                    filling.release(&self.state, &mut self.views);
-                }
-                if let Some(filling) = self.panels.filling_of_mut(mode) {
-                    return filling.fill(ui, &self.state, &mut self.views, self.is_narrow);
-                }
-                let mut asked = Vec::from_iter(self.show_views(ui));
-                // Who learns or presents has a surface to look at.
-                let is_free =
-                    self.panels.lesson.given().is_none() && !self.presenter.is_on() && !self.platform.is_embedded();
-                if self.invites && is_free && self.state.shows_sample() {
-                    invitation::show(ui, self.views.first(), &mut asked);
-                }
-                asked
-            });
+        // The two views leave nothing to be filled behind them.
+        let is_covered = self.panels.filling_of_mut(mode).is_none();
+        let line = ui.visuals().widgets.noninteractive.bg_stroke.color;
+        let frame = if is_covered { Frame::new() } else { Frame::new().fill(line) };
+        let asked = CentralPanel::default().frame(frame).show(ui, |ui| {
+            if std::mem::take(&mut self.look_next) {
+                self.views.look_first(self.state.document.as_ref(), keep);
+                self.recovery.look(&mut self.views.camera);
+            }
+            self.sharing.look(&mut self.views.camera);
+            for filling in self.panels.filling_mut() {
+                filling.release(&self.state, &mut self.views);
+            }
+            if let Some(filling) = self.panels.filling_of_mut(mode) {
+                return filling.fill(ui, &self.state, &mut self.views, self.is_narrow);
+            }
+            let mut asked = Vec::from_iter(self.show_views(ui));
+            // Who learns or presents has a surface to look at.
+            let is_free =
+                self.panels.lesson.given().is_none() && !self.presenter.is_on() && !self.platform.is_embedded();
+            if self.invites && is_free && self.state.shows_sample() {
+                invitation::show(ui, self.views.first(), &mut asked);
+            }
+            asked
+        });
         self.act_on_all(asked.inner, ui.ctx());
         let mut asked = Vec::new();
         self.panels.all_mut().into_iter().for_each(|panel| panel.show_over(ui, &mut asked));

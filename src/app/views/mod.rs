@@ -10,7 +10,7 @@ use std::sync::Arc;
 use egui::{Rect, Ui};
 use glam::Vec3;
 
-use self::motion::Motion;
+use self::motion::{Light, Motion};
 pub(super) use self::picture::legend;
 use super::action::Action;
 use super::collapses::Collapses;
@@ -128,8 +128,8 @@ pub struct Views {
     /// Frames a second while something moves.
     frames_per_second: Option<f32>,
     motion: Motion<Revision>,
-    /// The most triangles of a surface, while pictures are light.
-    light: Option<usize>,
+    /// What pictures are to be like, while they are light.
+    light: Option<Light>,
 }
 
 impl Views {
@@ -334,9 +334,8 @@ impl Views {
         let (now_s, expected_s) = ui.input(|input| (input.time, f64::from(input.predicted_dt)));
         // Numbers of the level change nothing that is drawn.
         let of = Revision { measured: 0, ..document.map(|document| document.revision).unwrap_or_default() };
-        let light = self.motion.follow(of, self.camera, now_s, expected_s);
-        self.light = light.map(|light| light.most);
-        if let Some(light) = light {
+        self.light = self.motion.follow(of, self.camera, now_s, expected_s);
+        if let Some(light) = self.light {
             ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(light.left_s));
         }
     }
@@ -409,10 +408,28 @@ impl Views {
             if is_alone && index != self.large {
                 continue;
             }
+            rim(ui, rect);
             let hit = self.view(ui, index, rect.shrink(0.5), look, subject, over);
             clicked = clicked.or(hit);
         }
         clicked
+    }
+}
+
+/// A line of half a point within `rect`, around the picture that covers the rest: to fill all of it would take longer where
+/// there is no graphics card.
+fn rim(ui: &Ui, rect: Rect) {
+    /// As wide as no edge of the line is seen.
+    const WIDE: f32 = 2.0;
+    let rect = rect.expand(0.5);
+    let sides = [
+        rect.with_max_x(rect.left() + WIDE),
+        rect.with_min_x(rect.right() - WIDE),
+        rect.with_max_y(rect.top() + WIDE),
+        rect.with_min_y(rect.bottom() - WIDE),
+    ];
+    for side in sides {
+        ui.painter().rect_filled(side, 0.0, ui.visuals().widgets.noninteractive.bg_stroke.color);
     }
 }
 

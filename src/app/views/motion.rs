@@ -1,5 +1,5 @@
 //! While the camera moves and frames come slowly, as without a graphics card, the views draw fewer triangles at half the
-//! size, and fewer still where that is slow too; once it rests, the level itself.
+//! size, and still fewer at a third where that is slow too; once it rests, the level itself.
 
 use crate::render::Camera;
 
@@ -7,8 +7,8 @@ use crate::render::Camera;
 const SLOW_S: f64 = 0.05;
 /// And longer than so many times what the window expects.
 const SLOW_FRAMES: f64 = 3.0;
-/// The most triangles of a light picture, and of the lightest.
-const LIGHT: [usize; 2] = [20_000, 4_000];
+/// The most triangles of a light picture and by what its size is divided; then those of the lightest.
+const LIGHT: [(usize, u32); 2] = [(20_000, 2), (4_000, 3)];
 /// So many slow frames in a row make a picture lighter.
 const SLOW_IN_A_ROW: u32 = 2;
 /// A camera that has stood still for so long rests, in s.
@@ -34,6 +34,8 @@ pub(super) struct Motion<Of> {
 pub(super) struct Light {
     /// The most triangles of a surface.
     pub(super) most: usize,
+    /// By what width and height are divided.
+    pub(super) part: u32,
     /// For how long, in s, if the camera does not move on.
     pub(super) left_s: f64,
 }
@@ -64,8 +66,8 @@ impl<Of: PartialEq> Motion<Of> {
         }
         self.frame_s = now_s;
         let left_s = self.moved_s + REST_S - now_s;
-        let most = *LIGHT.get(self.steps.checked_sub(1)?)?;
-        (left_s > 0.0).then_some(Light { most, left_s })
+        let (most, part) = *LIGHT.get(self.steps.checked_sub(1)?)?;
+        (left_s > 0.0).then_some(Light { most, part, left_s })
     }
 }
 
@@ -97,7 +99,7 @@ mod tests {
     #[test]
     fn slow_frames_of_a_turn_make_pictures_light_and_fast_ones_do_not() {
         for (frames, light) in
-            [(2, None), (3, Some(LIGHT[0])), (4, Some(LIGHT[0])), (5, Some(LIGHT[1])), (50, Some(LIGHT[1]))]
+            [(2, None), (3, Some(LIGHT[0].0)), (4, Some(LIGHT[0].0)), (5, Some(LIGHT[1].0)), (50, Some(LIGHT[1].0))]
         {
             assert_eq!(light_after(frames, 0.2).3, light, "{frames}");
         }
@@ -106,7 +108,7 @@ mod tests {
         let (mut motion, mut camera, mut now_s, _) = light_after(3, 0.2);
         for _ in 0..100 {
             (camera, now_s) = (turned(camera), now_s + 0.03);
-            assert_eq!(motion.follow(0, camera, now_s, EXPECTED_S).map(|light| light.most), Some(LIGHT[0]));
+            assert_eq!(motion.follow(0, camera, now_s, EXPECTED_S).map(|light| light.most), Some(LIGHT[0].0));
         }
     }
 

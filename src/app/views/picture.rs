@@ -122,8 +122,8 @@ impl Views {
         let corners: Vec<Vec3> = self.slices.iter().flat_map(|slice| slice.corners).collect();
         Picture {
             camera: Camera { bounds: self.camera.bounds.joined(&Bounds::of(&corners)), ..self.camera },
-            size: pixels(ui, rect).map(|side| if self.light.is_some() { side.div_ceil(2) } else { side }),
-            light: self.light,
+            size: pixels(ui, rect).map(|side| side.div_ceil(self.light.map_or(1, |light| light.part))),
+            light: self.light.map(|light| light.most),
             look,
             style,
             before: self.show_before,
@@ -156,7 +156,11 @@ impl Views {
             None => (vec![(index, picture, rect, whole)], vec![(rect, self.show_before)]),
         };
         for (index, picture, shown, part) in parts {
-            match self.scene.as_mut().map(|scene| scene.draw(index, picture, document, keep)) {
+            let drawn = self.scene.as_mut().map(|scene| scene.draw(index, picture, document, keep));
+            if !matches!(drawn, Some(Ok(_))) {
+                ui.painter_at(shown).rect_filled(shown, 0.0, ui.visuals().panel_fill);
+            }
+            match drawn {
                 Some(Ok(texture)) => {
                     ui.painter_at(shown).image(texture, shown, part, Color32::WHITE);
                     if let (Some(outlines), Some(document)) = (&mut self.outlines, document) {
