@@ -51,7 +51,7 @@ impl Route {
             let is_there = other.id == parent || other.parent == Some(parent);
             is_there && !route.contains(&other.id)
         };
-        let others = tree.branches().iter().filter(meets).filter_map(|other| way_from(other, joint.at, radius));
+        let others = tree.branches().iter().filter(meets).filter_map(|other| way_from(tree, other, joint.at, radius));
         let straightest = others.map(|way| degrees(way_in, way)).fold(f64::INFINITY, f64::min);
         // Where vessels meet, the largest sphere is wider than each of them.
         let parent_radius_mm = self.at(before).radius;
@@ -84,12 +84,18 @@ fn child<'a>(from: &'a Branch, into: &'a Branch) -> Option<&'a Branch> {
 }
 
 /// By how many degrees a way turns that leaves one branch for another which it meets, by their centrelines from one to three
-/// radii away; `None` where one of them is no longer than wide, or they do not meet.
+/// radii away; `None` where the vessel of one of them is no longer than wide, or they do not meet.
 pub(super) fn turn_degrees(tree: &Tree, pair: [u32; 2]) -> Option<f64> {
     let [from, into] = pair.map(|id| &tree.branches()[id as usize]);
     let joint = child(from, into)?.points[0];
-    let [back, on] = [from, into].map(|branch| way_from(branch, joint.at, joint.radius));
+    let [back, on] = [from, into].map(|branch| way_from(tree, branch, joint.at, joint.radius));
     Some(degrees(-back?, on?))
+}
+
+/// Whether two branches that meet are both longer than the lumen is wide there.
+pub(super) fn are_long(tree: &Tree, pair: [u32; 2]) -> bool {
+    let [from, into] = pair.map(|id| &tree.branches()[id as usize]);
+    child(from, into).is_some_and(|child| from.length_mm().min(into.length_mm()) > 2.0 * child.points[0].radius)
 }
 
 /// The angle between two ways.
@@ -97,14 +103,40 @@ fn degrees(one: DVec3, other: DVec3) -> f64 {
     libm::acos(one.dot(other).clamp(-1.0, 1.0)).to_degrees()
 }
 
-/// The way that a branch goes from a joint at one of its ends; `None` where it has none there or is no longer than wide.
-fn way_from(branch: &Branch, joint: DVec3, radius: f64) -> Option<DVec3> {
-    let (arcs, length) = (&branch.arcs, branch.length_mm());
-    let at = |arc: f64| branch.points[arcs.partition_point(|&a| a < arc).min(arcs.len() - 1)].at;
-    let is_reversed = at(length).distance(joint) < at(0.0).distance(joint);
-    let from_joint = |arc: f64| at(if is_reversed { (length - arc).max(0.0) } else { arc });
-    if from_joint(0.0).distance(joint) > radius || length <= 2.0 * radius {
+/// The way that a branch goes from a joint at one of its ends; `None` where it has none there, or where its vessel is no
+/// longer than wide. A branch that ends before that at the ostium of another goes on in the one that goes straight on there.
+fn way_from(tree: &Tree, branch: &Branch, joint: DVec3, radius: f64) -> Option<DVec3> {
+    let [first, last] = [0, branch.points.len() - 1].map(|i| branch.points[i].at.distance(joint));
+    if first.min(last) > radius {
         return None;
     }
-    (from_joint((1.0 + OVER) * radius) - from_joint(radius)).try_normalize()
+    let far = (1.0 + OVER) * radius;
+    let is_reversed = last < first;
+    let (mut part, mut arc) = (branch, 0.0);
+    let mut near = None;
+    loop {
+        let length = part.length_mm();
+        let at = |past: f64| {
+            let past = if is_reversed { (length - past).max(0.0) } else { past };
+            part.points[part.arcs.partition_point(|&a| a < past).min(part.arcs.len() - 1)].at
+        };
+        if near.is_none() && arc + length >= radius {
+            near = Some(at(radius - arc));
+        }
+        let next = (arc + length < far).then(|| straight_on(tree, part, is_reversed)).flatten();
+        let Some(next) = next else {
+            let is_long = arc + length > 2.0 * radius;
+            return is_long.then_some(near?).and_then(|near| (at(far - arc) - near).try_normalize());
+        };
+        (part, arc) = (next, arc + length);
+    }
+}
+
+/// The branch in which one goes on behind its end, or before its start, as the same vessel.
+fn straight_on<'a>(tree: &'a Tree, branch: &Branch, is_reversed: bool) -> Option<&'a Branch> {
+    if is_reversed {
+        let parent = branch.parent.filter(|_| branch.goes_straight_on())?;
+        return tree.branches().get(parent as usize);
+    }
+    tree.branches().iter().find(|next| next.parent == Some(branch.id) && next.goes_straight_on())
 }

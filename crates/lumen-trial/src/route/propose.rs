@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::forks::turn_degrees;
+use super::forks::{are_long, turn_degrees};
 use super::way::between;
 use super::{PlaceName, Routes as _, WayEnd, usual_radius};
 use crate::setup::Entry;
@@ -265,7 +265,8 @@ fn access(tree: &Tree, tip: &Tip<'_>) -> Option<Access> {
     let ways: Vec<Vec<u32>> = aortas.iter().map(|&aorta| between(tree, tip.branch.id, aorta)).collect();
     let nearest = ways.iter().map(Vec::len).min();
     let last = ways.iter().filter(|way| Some(way.len()) == nearest).filter_map(|way| way.last_chunk::<2>());
-    let turns = last.filter_map(|&pair| turn_degrees(tree, pair));
+    // A piece between two ostia that is no longer than wide is no artery, and what leads into one may come from the side.
+    let turns = last.filter(|&&pair| are_long(tree, pair)).filter_map(|&pair| turn_degrees(tree, pair));
     let is_iliac = turns.fold(f64::INFINITY, f64::min) <= ILIAC;
     Some(if is_iliac { Access::Femoral } else { Access::Branch })
 }

@@ -353,3 +353,44 @@ fn a_target_behind_a_turn_back_is_the_last() {
     // From above, that at the side is behind a turn of 108.
     assert_eq!(from(top), [1, 2, 3], "the longer artery first");
 }
+
+/// An aorta of 18 mm from the origin along z, a little wider at its upper end, with arteries of 6 mm: where each leaves the
+/// middle of it, on which way across, and by how many degrees. Its tree, and the ends of the aorta and the arteries.
+fn aorta_with_arteries(arteries: &[(f64, DVec3, f64)]) -> (Tree, Vec<DVec3>) {
+    let [bottom, wide, top] = [0.0, 120.0, 150.0].map(|z| DVec3::Z * z);
+    let mut ends = vec![bottom, top];
+    let mut vessels = vec![(bottom, top, 9.0), (wide, top, 10.0)];
+    for &(z, across, degrees) in arteries {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let (from, way) = (DVec3::Z * z, across * sin + DVec3::Z * cos);
+        let to = from + 50.0 * way;
+        ends.push(to);
+        vessels.push((from, to, 3.0));
+    }
+    let inside = |p: DVec3| {
+        vessels.iter().map(|&(from, to, radius)| in_capsule(p, from, to, radius)).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let mesh = isosurface(DVec3::new(-11.0, -54.0, -11.0), DVec3::new(54.0, 54.0, 162.0), 1.0, inside);
+    (Tree::new(&mesh).unwrap(), ends)
+}
+
+#[test]
+fn between_ostia_that_lie_closer_than_the_vessel_is_wide_it_goes_on_as_the_whole_vessel_does() {
+    let (tree, ends) = aorta_with_arteries(&[(50.0, -DVec3::Y, 75.0), (74.0, DVec3::Y, 120.0)]);
+    let is_short = |branch: &Branch| branch.ends == [End::Joint; 2] && branch.length_mm() < 18.0;
+    assert_eq!(tree.branches().iter().filter(|branch| is_short(branch)).count(), 1);
+    // What turns back is the last target, and past the other artery the aorta goes straight on.
+    let from = Vec3::Z * 5.0;
+    let targets = tree.targets(from, 0.0).into_iter().map(|target| target.at.to_array());
+    assert_eq!(ends_of(targets, &ends), [2, 1, 3]);
+    let forks = tree.route(from, (0.95 * ends[2]).as_vec3()).unwrap().forks(&tree);
+    assert!(matches!(forks[..], [fork] if (fork.turn_degrees - 75.0).abs() < 5.0), "{forks:?}");
+}
+
+#[test]
+fn a_piece_of_an_aorta_between_two_ostia_is_no_artery_that_leads_into_it() {
+    // Both pieces beside the second artery are shorter than a branch of an aorta is.
+    let (tree, ends) = aorta_with_arteries(&[(50.0, -DVec3::Y, 75.0), (61.0, DVec3::X, 75.0), (72.0, DVec3::Y, 75.0)]);
+    let found = ends_of(tree.entries().into_iter().map(|(_, entry)| entry.at), &ends);
+    assert_eq!(found[..2], [0, 1], "by the aorta, not by an artery at its side: {found:?}");
+}
