@@ -295,6 +295,13 @@ fn print(summary: &Summary) {
     );
     row("reached into the wall", format!("{:.4} mm at most", summary.max_penetration_mm));
     row(
+        "length error",
+        format!(
+            "{:.4} % on average, {:.4} % at most; a single element {:.4} %",
+            summary.mean_length_error_percent, summary.max_length_error_percent, summary.max_element_error_percent
+        ),
+    );
+    row(
         "tries",
         format!(
             "{} retractions, {} wrong branches, {} loops; path {:.2} times the route",

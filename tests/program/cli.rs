@@ -264,6 +264,7 @@ fn a_trial_writes_every_promised_field_and_a_log_and_is_the_same_again() {
         "tip_distance_mm",
         "max_wall_force_n",
         "max_penetration_mm",
+        "max_element_error_percent",
         "step_kinds",
         "unbalanced_share",
         "wire",
@@ -272,7 +273,7 @@ fn a_trial_writes_every_promised_field_and_a_log_and_is_the_same_again() {
     ] {
         assert!(!found[field].is_null(), "{field} of {found}");
     }
-    assert!(["mean", "p50", "p99", "max"].iter().all(|part| found["step_ms"][part].as_f64().unwrap() > 0.0));
+    assert!(["mean", "p50", "p95", "p99", "max"].iter().all(|part| found["step_ms"][part].as_f64().unwrap() > 0.0));
     assert_eq!((found["schema"].as_u64(), found["success"].as_bool()), (Some(3), Some(true)));
     assert_eq!((found["seed"].as_u64(), found["triangles"].as_u64()), (Some(3), Some(742)));
     let stations = found["stations"].as_array().unwrap();

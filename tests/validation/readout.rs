@@ -132,6 +132,12 @@ fn a_weight_along_the_wire_is_what_it_pushes_with() {
         let what = format!("push with 0.1 mN on each mm {name} (N)");
         found.compare(&what, -way * load * simulation.inserted(), push, Part(0.005), 30);
         found.compare(&format!("torque beside it {name} (N mm)"), 0.0, torque, Within(1e-9), 30);
+        // The element that crosses the mouth bears all of the load, inside the guide as well.
+        let (outside, length) = (simulation.inserted(), simulation.grid()[simulation.count()]);
+        let ea = simulation.body().rod.sections[0].ea;
+        let mean = load * outside * (length - outside / 2.0) / (ea * length);
+        let [stretch, _] = simulation.length_errors();
+        found.compare(&format!("stretch by it {name} over the length"), mean, stretch, Part(0.005), 30);
     }
     found.finish();
 }

@@ -87,6 +87,10 @@ pub struct Meter {
     pub(super) max_push_n: f64,
     pub(super) max_torque_n_mm: f64,
     pub(super) max_depth: f64,
+    /// As in [`Simulation::length_errors`]: the sum and the largest of the first, the largest of the second.
+    pub(super) length_error_sum: f64,
+    pub(super) max_length_error: f64,
+    pub(super) max_element_error: f64,
     pub(super) max_inserted: f64,
     pub(super) max_nodes: usize,
     pub(super) max_contact_share: f64,
@@ -114,6 +118,10 @@ impl Meter {
         self.wanted_mm += report.wanted_mm.abs();
         self.fed_mm += report.fed_mm.abs();
         self.max_depth = self.max_depth.max(simulation.body().depth);
+        let [of_wire, of_element] = simulation.length_errors();
+        self.length_error_sum += of_wire;
+        self.max_length_error = self.max_length_error.max(of_wire);
+        self.max_element_error = self.max_element_error.max(of_element);
         let row = &mut self.since_row;
         row.counts.count(report.kind);
         row.wanted_mm += report.wanted_mm;

@@ -303,6 +303,20 @@ impl Simulation {
         self.inserted
     }
 
+    /// How far the wire outside the guide differs from its length at rest, as a part of that; and the element that differs most.
+    /// The element that crosses the mouth counts whole.
+    pub fn length_errors(&self) -> [f64; 2] {
+        let rod = &self.body.rod;
+        let (mut length, mut at_rest, mut most) = (0.0, 0.0, 0.0_f64);
+        for edge in 0..self.outside() {
+            let (now, rest) = (rod.length(edge), rod.sections[edge].length);
+            length += now;
+            at_rest += rest;
+            most = most.max((now / rest - 1.0).abs());
+        }
+        [(length / at_rest - 1.0).abs(), most]
+    }
+
     /// Roll at the guide in radians.
     pub fn roll(&self) -> f64 {
         self.roll

@@ -16,6 +16,9 @@ pub struct StepTimes {
     pub mean: f64,
     /// Median.
     pub p50: f64,
+    /// 95th percentile.
+    #[serde(default)]
+    pub p95: f64,
     /// 99th percentile.
     pub p99: f64,
     /// The longest.
@@ -74,7 +77,7 @@ impl Stopwatch {
         sorted.sort_by(f32::total_cmp);
         let at = |part: f64| sorted.get(((sorted.len() as f64 * part) as usize).min(sorted.len().max(1) - 1));
         let at = |part: f64| at(part).map_or(0.0, |&ms| f64::from(ms));
-        StepTimes { mean: mean(&self.step_ms), p50: at(0.5), p99: at(0.99), max: at(1.0) }
+        StepTimes { mean: mean(&self.step_ms), p50: at(0.5), p95: at(0.95), p99: at(0.99), max: at(1.0) }
     }
 
     /// What was measured around a station at this arc length in mm, by the step at which the tip passed it.

@@ -108,6 +108,15 @@ pub struct Summary {
     pub max_torque_n_mm: f64,
     /// How far the wire ever reached into the wall, in mm.
     pub max_penetration_mm: f64,
+    /// How far the wire outside the guide differed from its length at rest, in percent: mean over all steps.
+    #[serde(default)]
+    pub mean_length_error_percent: f64,
+    /// And at most.
+    #[serde(default)]
+    pub max_length_error_percent: f64,
+    /// The same of a single element, at most.
+    #[serde(default)]
+    pub max_element_error_percent: f64,
     /// Largest length outside the guide, in mm.
     pub max_inserted_mm: f64,
     /// Largest number of nodes outside the guide.
@@ -241,6 +250,9 @@ impl Trial {
             fed_mm: meter.fed_mm,
             max_residual_n: meter.max_residual_n,
             max_penetration_mm: meter.max_depth.max(0.0),
+            mean_length_error_percent: 100.0 * per(meter.length_error_sum, steps),
+            max_length_error_percent: 100.0 * meter.max_length_error,
+            max_element_error_percent: 100.0 * meter.max_element_error,
             max_inserted_mm: meter.max_inserted,
             max_nodes: meter.max_nodes,
             max_contact_share: meter.max_contact_share,

@@ -138,6 +138,11 @@ impl Rod {
         self.edges[edge].tangent
     }
 
+    /// Length of an edge as it is now, in mm.
+    pub fn length(&self, edge: usize) -> f64 {
+        self.edges[edge].length
+    }
+
     /// Where a node was at the start of the step.
     pub fn start(&self, node: usize) -> DVec3 {
         self.start[node]
