@@ -72,6 +72,31 @@ function moveAround(page, count, pattern = "") {
   );
 }
 
+/**
+ * Turns the view at the left with the pointer for `count` frames. Returns the times between frames by the clock on the wall, in
+ * ms, but for the first ten, in which what is drawn becomes light.
+ */
+function turn(page, count) {
+  return page.evaluate(async (count) => {
+    const canvas = document.getElementById("lumen");
+    const send = (type, x) => {
+      const all = { clientX: x, clientY: 400, bubbles: true, pointerType: "mouse", isPrimary: true, pointerId: 1, buttons: 1, button: type === "move" ? -1 : 0 };
+      canvas.dispatchEvent(new PointerEvent(`pointer${type}`, all));
+      canvas.dispatchEvent(new MouseEvent(`mouse${type}`, all));
+    };
+    const times = [];
+    send("down", 600);
+    for (let frame = 0, last = 0; frame < count; frame++) {
+      send("move", 600 + 3 * frame);
+      const now = await new Promise((next) => requestAnimationFrame((now) => setTimeout(next, 0, now)));
+      if (frame >= 10) times.push(now - last);
+      last = now;
+    }
+    send("up", 600 + 3 * count);
+    return times;
+  }, count);
+}
+
 /** Runs in the page before the app: marks the large messages to and from the Workers, for the trace. */
 function markMessages() {
   const kind = (message) => new Uint8Array(message[0])[0];
@@ -147,6 +172,7 @@ test("a million triangles are worked on beside a page that stays responsive", { 
 
   let calm, moved;
   const idle = await traced(page, async () => (calm = await moveAround(page, 40)));
+  const turned = await turn(page, 40);
   const opening = await traced(page, async () => {
     await openFile(page, file);
     await working();
@@ -186,6 +212,8 @@ test("a million triangles are worked on beside a page that stays responsive", { 
   t.diagnostic(`surfaces that come and go: ${told(arrivals)}`);
   t.diagnostic(`the Worker's longest tasks: ${told(slices.slice(0, 3))}`);
   t.diagnostic(`between frames by the wall: ${median(calm).toFixed(0)} ms idle (${worst(calm).toFixed(0)} at worst), ${median(moved).toFixed(0)} at work (${worst(moved).toFixed(0)} at worst)`);
+  const mean = turned.reduce((sum, ms) => sum + ms, 0) / turned.length;
+  t.diagnostic(`the sample turned: ${mean.toFixed(0)} ms a frame by the wall in the mean, ${median(turned).toFixed(0)} at the median`);
   t.diagnostic(`cancel answered after ${answers.map((ms) => ms.toFixed(0)).join(", ")} ms by the wall`);
   assert(moved.length > 5, `${moved.length} frames of work`);
   assert(arrivals.length > 0, "the surface arrived");

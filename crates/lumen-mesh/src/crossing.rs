@@ -50,6 +50,7 @@ pub fn cross_at_all(a: &Face, b: &Face) -> bool {
 /// Whether two triangles of a surface share a point besides common corners or a common edge, however little: decided exactly, also
 /// in one plane. Corners at one place are common. Triangles with two of them never do, even folded flat onto each other; those
 /// with all three do. What has no area counts by its sides alone.
+#[inline(never)]
 pub fn touch(a: &Face, b: &Face) -> bool {
     let [(low_a, high_a), (low_b, high_b)] = [a.corners, b.corners].map(|[p, q, r]| (p.min(q).min(r), p.max(q).max(r)));
     if !(low_a.cmple(high_b) & low_b.cmple(high_a)).all() {

@@ -202,7 +202,8 @@ fn mark_pair(mesh: &TriMesh, leaf: &Leaf, other: &Leaf, crossing: &Crossing) {
     }
     let [face, other_face] =
         [leaf, other].map(|leaf| Face { vertices: mesh.triangles[leaf.triangle as usize], corners: leaf.corners });
-    let meet = if crossing.is_exact { touch } else { cross };
+    // By name, so that the plain question is answered in place.
+    let meet = |a: &Face, b: &Face| if crossing.is_exact { touch(a, b) } else { cross(a, b) };
     let meets = match leaf.triangle.cmp(&other.triangle) {
         Less => meet(&face, &other_face),
         Equal => false,
