@@ -12,7 +12,10 @@ import { readFile } from "node:fs/promises";
 import { createInterface } from "node:readline";
 import { openFile, settled } from "../../tests/browser/app.mjs";
 import { launch, started } from "../../tests/browser/browser.mjs";
-import { HOUR, serveBench, workerPage } from "../worker.mjs";
+import { HOUR, serveBench, startWorker } from "../worker.mjs";
+
+/** Milliseconds of a look. */
+const LOOK = 1500;
 
 const browser = await launch();
 const files = {};
@@ -24,52 +27,39 @@ for await (const line of createInterface({ input: process.stdin })) {
   const answer = what === "app" ? await app(question) : await (await (stages ??= engine()))(question);
   console.log(JSON.stringify({ ...answer, chromium: browser.version() }));
 }
+await (await stages)?.close();
 await browser.close();
 await server.close();
 
 /** An empty page with a Worker, which serves one question after another, so that its code is warm. */
 async function engine() {
-  const page = await workerPage(browser, server, files, "pipeline");
-  let opened = 0;
-  return async ({ file, steps }) => {
-    files["input"] = { type: "application/octet-stream", body: await readFile(file) };
-    const reports = await page.evaluate(runSteps, { name: file.split("/").at(-1), steps, first: opened });
-    opened += steps.length;
-    return { reports, bytes: await memory(page.workers()[0]) };
+  // What the Worker is asked for, and whoever waits for it.
+  let asked;
+  const hear = ({ generation, report, failed }) => {
+    if (failed) asked?.reject(new Error(failed));
+    if (report && generation === asked?.generation) asked.resolve(report);
   };
-}
-
-/** In the page: opens the file with the first settings and goes through the others; the report of each. */
-async function runSteps({ name, steps, first }) {
-  const { worker } = window;
-  const answer = (generation) =>
-    new Promise((resolve, reject) => {
-      worker.onerror = (event) => reject(new Error(event.message || "the Worker could not be started"));
-      worker.onmessage = ({ data: [header] }) => {
-        const event = JSON.parse(header);
-        const [failed] = [event.Failed, event.OpenFailed].filter(Boolean);
-        if (failed) reject(new Error(failed.message));
-        if (event.Measured?.generation === generation) resolve(event.Measured.report);
-      };
-    });
-  const LOOK = 1500;
-  const bytes = await (await fetch("input", { cache: "no-store" })).arrayBuffer();
-  const reports = [];
-  for (const [step, settings] of steps.entries()) {
-    const generation = first + step + 1;
-    const heard = answer(generation);
-    if (step === 0) {
-      const source = { File: { name, bytes: 0, options: { unit: null } } };
-      const header = { Open: { id: generation, source, settings } };
-      worker.postMessage([JSON.stringify(header), bytes], [bytes]);
-    } else {
+  const worker = await startWorker(browser, server, files, "pipeline", hear);
+  const measured = async (generation, command, arrays) => {
+    const report = new Promise((resolve, reject) => (asked = { generation, resolve, reject }));
+    await worker.send(command, arrays);
+    return report;
+  };
+  let generation = 0;
+  const ask = async ({ file, steps: [first, ...others] }) => {
+    files["input"] = { type: "application/octet-stream", body: await readFile(file) };
+    generation += 1;
+    const opening = { open: generation, name: file.split("/").at(-1), settings: first };
+    const reports = [await measured(generation, opening, ["input"])];
+    for (const settings of others) {
       // As after a look at the result: what the engine gets ready while nothing is asked of it is there.
       await new Promise((resolve) => setTimeout(resolve, LOOK));
-      worker.postMessage([JSON.stringify({ Set: { generation, settings } })]);
+      generation += 1;
+      reports.push(await measured(generation, { set: generation, settings }));
     }
-    reports.push(await heard);
-  }
-  return reports;
+    return { reports, bytes: await memory(worker.page.workers()[0]) };
+  };
+  return Object.assign(ask, { close: worker.close });
 }
 
 /** Bytes of the memory of Lumen's instance in a page or a Worker: its glue gives the instance that is there already. */

@@ -11,6 +11,7 @@ use crate::{build, tools};
 pub(crate) fn bench_trial() -> Result<()> {
     let folder = target().join("trial");
     let (dist, npm, chromium) = (build::build()?, tools::npm()?, tools::chromium()?);
+    build::messages()?;
     for row in ["1000000", "p1000000"] {
         step("Measure the trial natively", || {
             let bench = ["bench", "--quiet", "--bench=trial", "--no-default-features", "--", row];

@@ -84,6 +84,13 @@ pub(crate) fn build_beside(others: &[&str]) -> Result<PathBuf> {
     Ok(dist)
 }
 
+/// Compiles `benches/messages.rs`, by which `benches/worker.mjs` speaks with a Worker.
+pub(crate) fn messages() -> Result<()> {
+    step("Compile what speaks with the browser's Worker", || {
+        run(cargo().args(["bench", "--quiet", "--no-run", "--bench=messages", "--no-default-features"]))
+    })
+}
+
 /// Compiles programs for the browser.
 pub(crate) fn compile(programs: &[&str]) -> Result<()> {
     let options = ["--quiet", "--release", "--target=wasm32-unknown-unknown"];

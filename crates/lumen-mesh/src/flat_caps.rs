@@ -42,6 +42,9 @@ const WIDER: f64 = 2.2;
 /// Off the plane, in radii of the cap, a corner of a cap lies at most.
 const OFF_PLANE: f64 = 0.01;
 
+/// No triangle, and no region.
+const NONE: u32 = u32::MAX;
+
 /// Triangles between two looks at the clock, and those that a core works on in one go.
 const TRIANGLES: usize = 1 << 15;
 const PIECE: usize = 4096;
@@ -102,9 +105,10 @@ pub fn without_caps(triangles: &[[u32; 3]], caps: &[FlatCap]) -> Vec<[u32; 3]> {
 /// The search for caps in one surface.
 struct Search<'a> {
     mesh: &'a TriMesh,
-    topology: &'a Topology,
     /// Unit normals; 0 where there is none.
     normals: Vec<DVec3>,
+    /// The triangle on the other side of each edge; [`NONE`] where there is none, or more than one.
+    across: Vec<[u32; 3]>,
     /// The region of each triangle.
     regions: Vec<u32>,
     /// The triangles of each region of at least a few, in ascending order.
@@ -126,7 +130,14 @@ impl<'a> Search<'a> {
             normals.extend(found.into_iter().flatten());
             yielder.rest(0.3 * normals.len() as f32 / count as f32).await;
         }
-        let mut search = Self { mesh, topology, normals, regions: vec![u32::MAX; count], found: Vec::new() };
+        let mut across = vec![[NONE; 3]; count];
+        let mut ends = Vec::new();
+        for block in blocks(topology.vertex_count(), TRIANGLES) {
+            let end = block.end;
+            block.for_each(|v| join_around(mesh, topology, v as u32, &mut ends, &mut across));
+            yielder.rest(0.3 + 0.3 * end as f32 / topology.vertex_count() as f32).await;
+        }
+        let mut search = Self { mesh, normals, across, regions: vec![NONE; count], found: Vec::new() };
         for block in blocks(count, TRIANGLES) {
             let (first, of) = (block.start, &search);
             let found = parallel::map_ranges(block.len(), PIECE, |range| {
@@ -134,7 +145,7 @@ impl<'a> Search<'a> {
             });
             let end = block.end;
             found.into_iter().flatten().for_each(|seed| search.grow(seed));
-            yielder.rest(0.3 + 0.7 * end as f32 / count as f32).await;
+            yielder.rest(0.6 + 0.4 * end as f32 / count as f32).await;
         }
         search
     }
@@ -145,30 +156,26 @@ impl<'a> Search<'a> {
         if normal == DVec3::ZERO {
             return false;
         }
-        let cosines = self.across(t).map(|other| other.map(|other| self.normals[other as usize].dot(normal)));
-        cosines.iter().flatten().any(|&cosine| cosine > FLAT) && cosines.iter().flatten().any(|&cosine| cosine < CREASE)
+        let cosines = || self.across(t).map(|(_, other)| self.normals[other as usize].dot(normal));
+        cosines().any(|cosine| cosine > FLAT) && cosines().any(|cosine| cosine < CREASE)
     }
 
-    /// The triangle on the other side of each edge of `t`; `None` where there is none, or more than one.
-    fn across(&self, t: u32) -> [Option<u32>; 3] {
-        let [a, b, c] = self.mesh.triangles[t as usize];
-        [[a, b], [b, c], [c, a]].map(|[a, b]| {
-            let mut others = self.topology.triangles_on(&self.mesh.triangles, a, b).filter(|&other| other != t);
-            others.next().filter(|_| others.next().is_none())
-        })
+    /// The triangles on the other side of the edges of `t`, and the edge of each.
+    fn across(&self, t: u32) -> impl Iterator<Item = (usize, u32)> + use<> {
+        self.across[t as usize].into_iter().enumerate().filter(|&(_, other)| other != NONE)
     }
 
     /// Groups `seed` with all that lie in its plane, unless it is in a group.
     fn grow(&mut self, seed: u32) {
-        if self.regions[seed as usize] != u32::MAX {
+        if self.regions[seed as usize] != NONE {
             return;
         }
         let (number, normal) = (self.found.len() as u32, self.normals[seed as usize]);
         let (mut members, mut stack) = (vec![seed], vec![seed]);
         self.regions[seed as usize] = number;
         while let Some(t) = stack.pop() {
-            for other in self.across(t).into_iter().flatten() {
-                if self.regions[other as usize] == u32::MAX && self.normals[other as usize].dot(normal) > FLAT {
+            for (_, other) in self.across(t) {
+                if self.regions[other as usize] == NONE && self.normals[other as usize].dot(normal) > FLAT {
                     self.regions[other as usize] = number;
                     members.push(other);
                     stack.push(other);
@@ -198,8 +205,10 @@ impl<'a> Search<'a> {
             area += vector.length();
             moment += (a + b + c) / 3.0 * vector.length();
             normal += vector;
-            for (i, other) in self.across(t).into_iter().enumerate() {
-                let other = other?;
+            for (i, &other) in self.across[t as usize].iter().enumerate() {
+                if other == NONE {
+                    return None;
+                }
                 if self.regions[other as usize] == number {
                     continue;
                 }
@@ -257,7 +266,7 @@ impl<'a> Search<'a> {
         let mut stack = cap.triangles.clone();
         let mut wall = Vec::new();
         while let Some(t) = stack.pop() {
-            for other in self.across(t).into_iter().flatten() {
+            for (_, other) in self.across(t) {
                 let triangle = self.mesh.triangles[other as usize];
                 let depths = triangle.map(depth);
                 let is_near = depths.iter().any(|&depth| depth < deepest)
@@ -277,6 +286,26 @@ impl<'a> Search<'a> {
             let largest = outlines.iter().map(|outline| outline.area(cap.normal)).fold(0.0, f64::max);
             largest > cap.area_mm2 / wider && largest < cap.area_mm2 * wider
         })
+    }
+}
+
+/// Enters what lies across the edges from `v` to vertices of larger numbers into `across`: for each triangle and edge the
+/// triangle on the other side; nothing where there is none, or more than one. `ends` is room for that.
+fn join_around(mesh: &TriMesh, topology: &Topology, v: u32, ends: &mut Vec<[u32; 3]>, across: &mut [[u32; 3]]) {
+    ends.clear();
+    for &t in topology.triangles(v) {
+        let [a, b, c] = mesh.triangles[t as usize];
+        for (edge, [from, to]) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
+            if from.min(to) == v {
+                ends.push([from.max(to), t, edge as u32]);
+            }
+        }
+    }
+    ends.sort_unstable();
+    for edge in ends.chunk_by(|one, other| one[0] == other[0]) {
+        if let [[_, t, i], [_, u, j]] = *edge {
+            (across[t as usize][i as usize], across[u as usize][j as usize]) = (u, t);
+        }
     }
 }
 

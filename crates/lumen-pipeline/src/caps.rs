@@ -6,7 +6,7 @@
 //! the rim goes along with it. Decimation takes rims as borders between labels, and gives up no more of a cap's area than
 //! [`SPENT`](crate::decimation::SPENT).
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -32,13 +32,9 @@ pub struct Capped {
 }
 
 impl Capped {
-    /// Of a surface whose triangles have this adjacency; `None` where it has no caps.
-    pub(crate) async fn of(
-        mesh: &Arc<TriMesh>,
-        topology: &Topology,
-        measures: Measures,
-        yielder: &Yielder,
-    ) -> Option<Box<Self>> {
+    /// Of a surface; `None` where it has no caps.
+    async fn of(surface: &Surface, yielder: &Yielder) -> Option<Box<Self>> {
+        let Surface { mesh, topology, measures, .. } = surface;
         let caps = flat_caps_in_slices(mesh, topology, yielder).await;
         if caps.is_empty() {
             return None;
@@ -47,22 +43,37 @@ impl Capped {
         let topology = Topology::new(walls.positions.len(), &walls.triangles);
         let loops = oriented_loops(&topology);
         let volume_mm3 = loops.as_deref().map(|loops| volume_within(&walls, loops));
-        let measures = Measures { volume_mm3, ..measures };
-        let walls = Surface { mesh: Arc::new(walls), topology: Arc::new(topology), loops, measures, caps: None };
+        let measures = Measures { volume_mm3, ..*measures };
+        let walls = Surface { mesh: Arc::new(walls), topology: Arc::new(topology), loops, measures, caps: OnceLock::new() };
         Some(Box::new(Self { caps, walls: Arc::new(walls) }))
     }
 }
 
 impl Surface {
+    /// Its flat caps, which are looked for the first time: as long as all other connectivity takes ten times.
+    pub(crate) async fn capped(&self, yielder: &Yielder) -> Option<&Capped> {
+        if self.caps.get().is_none() {
+            let found = Capped::of(self, yielder).await;
+            self.caps.get_or_init(|| found);
+        }
+        self.caps.get()?.as_deref()
+    }
+
+    /// Its caps, where these settings hold them: smoothing by them has looked.
+    fn held(&self, settings: &Smoothing) -> Option<&Capped> {
+        let caps = settings.hold_caps.then(|| self.caps.get())?;
+        debug_assert!(caps.is_some(), "nobody has looked for caps");
+        caps?.as_deref()
+    }
+
     /// What smoothing by these settings sees of the surface: without its caps where they are held.
     pub(crate) fn smoothed_as(self: &Arc<Self>, settings: &Smoothing) -> Arc<Self> {
-        let capped = self.caps.as_ref().filter(|_| settings.hold_caps);
-        capped.map_or(self, |capped| &capped.walls).clone()
+        self.held(settings).map_or(self, |capped| &capped.walls).clone()
     }
 
     /// Its caps, where these settings hold them.
     pub(crate) fn held_caps(&self, settings: &Smoothing) -> &[FlatCap] {
-        self.caps.as_ref().filter(|_| settings.hold_caps).map_or(&[], |capped| &capped.caps)
+        self.held(settings).map_or(&[], |capped| &capped.caps)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What the stages of the pipeline make, a slot each.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -128,8 +128,8 @@ pub struct Surface {
     pub loops: Option<Vec<Vec<u32>>>,
     /// Its area and volume.
     pub measures: Measures,
-    /// Its flat caps, if it has some.
-    pub caps: Option<Box<Capped>>,
+    /// Its flat caps, once they are looked for, if it has some.
+    pub caps: OnceLock<Option<Box<Capped>>>,
 }
 
 /// The smoothed surface: the triangles of the kept one.

@@ -64,12 +64,6 @@ impl Store {
         Arc::ptr_eq(of, kept).then_some(widths)
     }
 
-    /// The least pass bands of the kept surface, if they are known.
-    pub(super) fn known_bands(&self) -> Option<&Arc<[f32]>> {
-        let (kept, (of, bands)) = (self.now.kept.as_ref()?, self.bands.as_ref()?);
-        Arc::ptr_eq(of, &kept.smoothed_as(&self.now.settings.smoothing)).then_some(bands)
-    }
-
     /// Whether there are no terms that suit the settings, though they would fit.
     pub(super) fn lacks_terms(&self) -> bool {
         let settings = &self.now.settings.smoothing;

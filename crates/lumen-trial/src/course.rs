@@ -103,7 +103,12 @@ impl Course {
             (Some(entry), _) => Some(entry),
             (None, Some((entry, _))) => Some(*entry),
             (None, None) if setup.target.is_some() => entries.first().map(|(_, entry)| *entry),
-            (None, None) => proposed_entry(&tree, &entries, (!setup.proposes_wire).then_some(&setup.wire)),
+            (None, None) => {
+                let fits = |entry: &Entry, wire: &Wire| {
+                    Simulation::new(wire, wire.friction, entry, 0.0, Some(wall.clone())).is_ok()
+                };
+                proposed_entry(&tree, &entries, (!setup.proposes_wire).then_some(&setup.wire), fits)
+            }
         };
         let mut entry = entry.ok_or(TrialError::NoEntry)?;
         let mut from = Vec3::from(entry.at);

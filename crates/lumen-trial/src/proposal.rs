@@ -1,5 +1,6 @@
 //! What wire and target are proposed where nobody has said any.
 
+use super::reach::gets_in;
 use super::route::{PlaceName, Proposals as _, Route, Routes as _, Target};
 use super::setup::Entry;
 use super::wire::Wire;
@@ -14,18 +15,28 @@ const WIDE: f64 = 2.0;
 /// Unless it comes less far than this part of where one of 0.014 in comes.
 const PART: f64 = 0.5;
 
-/// So many of the widest ends are looked at as entries.
+/// So many of the widest ends are looked at as entries, and so many targets that a wire comes to, before one is taken that is
+/// hard to reach.
 const ENTRIES: usize = 6;
+const TARGETS: usize = 12;
 /// An entry is proposed if what can be reached from it lies at least this part as far as from the best of the others.
 const FAR: f64 = 0.5;
 
 /// The entry that is proposed: the widest end, unless a wire comes much farther from another. An end with nothing behind it
-/// is none: the rim of a flat cap, or a stump beside the vessel.
-pub(super) fn proposed_entry(tree: &Tree, entries: &[(PlaceName, Entry)], wire: Option<&Wire>) -> Option<Entry> {
+/// is none: the rim of a flat cap, or a stump beside the vessel; nor is one where the wire does not fit, as `fits` says.
+pub(super) fn proposed_entry(
+    tree: &Tree,
+    entries: &[(PlaceName, Entry)],
+    wire: Option<&Wire>,
+    fits: impl Fn(&Entry, &Wire) -> bool,
+) -> Option<Entry> {
     let length = |entry: &Entry| {
         let from = Vec3::from(entry.at);
-        let target = wire.map_or_else(|| proposed(tree, from, None).1, |wire| reached(tree, from, wire));
-        target.map_or(0.0, |target| target.length_mm)
+        let (wire, target) = match wire {
+            Some(wire) => (wire.clone(), reached(tree, from, wire)),
+            None => proposed(tree, from, None),
+        };
+        target.filter(|_| fits(entry, &wire)).map_or(0.0, |target| target.length_mm)
     };
     let lengths: Vec<f64> = entries.iter().take(ENTRIES).map(|(_, entry)| length(entry)).collect();
     let longest = lengths.iter().copied().fold(0.0, f64::max);
@@ -51,12 +62,24 @@ pub(super) fn with_room(route: &Route, names: impl Iterator<Item = &'static str>
     names.map(Wire::named).filter(|wire| route.clearance(ROOM * wire.diameter_mm).is_ok()).collect()
 }
 
-/// The best target that a wire can reach.
+/// The best target that a wire can reach: the first with room for the wire all along and no fork that no tip gets into, of
+/// [`TARGETS`]; else the first that the wire comes to.
 pub(super) fn reached(tree: &Tree, from: Vec3, wire: &Wire) -> Option<Target> {
+    let targets = tree.targets(from, ROOM * wire.diameter_mm).into_iter();
     // The middle of the lumen may go another way there than the spheres do that the room was taken of.
-    let fits =
-        |target: &Target| tree.route(from, target.at).is_ok_and(|route| route.clearance(wire.diameter_mm).is_ok());
-    tree.targets(from, ROOM * wire.diameter_mm).into_iter().find(fits)
+    let mut ways = targets.filter_map(|target| {
+        let route = tree.route(from, target.at).ok()?;
+        route.clearance(wire.diameter_mm).is_ok().then_some((target, route))
+    });
+    let is_open = |route: &Route| {
+        route.clearance(ROOM * wire.diameter_mm).is_ok() && gets_in(&route.forks(tree), &suiting(route, wire))
+    };
+    let (first, route) = ways.next()?;
+    if is_open(&route) {
+        return Some(first);
+    }
+    let open = ways.take(TARGETS - 1).find(|(_, route)| is_open(route));
+    Some(open.map_or(first, |(target, _)| target))
 }
 
 /// The wire for the way to a target; without one, for the best that it can reach, and that.
@@ -92,7 +115,7 @@ mod tests {
         let tree = Tree::new(&tube(48, 480, 60.0, radius)).unwrap();
         let entries = tree.entries();
         assert!(entries[0].1.at[2] < 8.0, "the widest end is listed first: {entries:?}");
-        let proposed_z = |wire| proposed_entry(&tree, &entries, Some(&Wire::named(wire))).unwrap().at[2];
+        let proposed_z = |wire| proposed_entry(&tree, &entries, Some(&Wire::named(wire)), |_, _| true).unwrap().at[2];
         // A wire that comes through the waist enters at the widest end; for a thicker one there is nothing behind it.
         assert!(proposed_z(Wire::USUAL) < 8.0 && proposed_z(Wire::LONG_BEND) > 50.0);
     }

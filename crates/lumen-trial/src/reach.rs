@@ -53,6 +53,11 @@ fn missed(forks: &[Fork], wire: &Wire) -> Option<Fork> {
     most.filter(|fork| fork.takes_mm() > KNOWN_TO * wire.reach_mm())
 }
 
+/// Whether the tip of one of these wires gets into all forks.
+pub(super) fn gets_in(forks: &[Fork], wires: &[Wire]) -> bool {
+    wires.iter().any(|wire| missed(forks, wire).is_none())
+}
+
 /// Puts the wires whose tips get into all forks first, then those that reach farther. Of equal ones the order stays.
 pub(super) fn rank(wires: &mut [Wire], forks: &[Fork]) {
     let lacks = |wire: &Wire| missed(forks, wire).map_or(0.0, |fork| fork.takes_mm() - wire.reach_mm());
@@ -64,7 +69,7 @@ pub(super) fn finding(forks: &[Fork], wire: &Wire, others: &[Wire]) -> Option<Re
     let fork = missed(forks, wire)?;
     let (along, turn, width) = (fork.arc_mm, fork.turn_degrees, 2.0 * fork.parent_radius_mm);
     let (takes, reach) = (fork.takes_mm(), wire.reach_mm());
-    Some(if others.iter().any(|other| missed(forks, other).is_none()) {
+    Some(if gets_in(forks, others) {
         ReachFinding::Another { along, turn, width, takes, reach }
     } else {
         ReachFinding::None { along, turn, width, takes, reach }

@@ -68,6 +68,7 @@ fn prepare(options: &Options, folder: &Path) -> Result<serde_json::Value> {
         (None, json!({}))
     } else {
         let (dist, npm, chromium) = (build::build()?, tools::npm()?, tools::chromium()?);
+        build::messages()?;
         let environment = json!({ "LUMEN_DIST": dist, "LUMEN_NPM": npm, "CHROMIUM": chromium, "LUMEN_PROGRAM": lumen });
         (Some(root().join("benches/peers/lumen.mjs")), environment)
     };

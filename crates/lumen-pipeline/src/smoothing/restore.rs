@@ -114,7 +114,7 @@ fn losses(kept: &Surface, typical: f32, before: &[Vec3], smoothed: &[Vec3], afte
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
+    use std::sync::{Arc, OnceLock};
     use std::time::Duration;
 
     use glam::Quat;
@@ -136,7 +136,7 @@ mod tests {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let loops = oriented_loops(&topology);
         let measures = Measures { area_mm2: 0.0, volume_mm3: None };
-        Arc::new(Surface { mesh: Arc::new(mesh), topology: Arc::new(topology), loops, measures, caps: None })
+        Arc::new(Surface { mesh: Arc::new(mesh), topology: Arc::new(topology), loops, measures, caps: OnceLock::new() })
     }
 
     /// The pass bands of a vessel that is thin everywhere.

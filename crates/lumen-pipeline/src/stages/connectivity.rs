@@ -1,11 +1,10 @@
 //! Connectivity as a stage: the pieces, those that are kept, their adjacency, their area and volume.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use web_time::Instant;
 
 use super::{Row, Run};
-use crate::caps::Capped;
 use crate::connectivity::Connectivity;
 use crate::results::Surface;
 use crate::stage::Stage;
@@ -44,8 +43,7 @@ fn start(store: &Store) -> Option<Run> {
         let loops = oriented_loops(&topology);
         let measures = measures_within(&mesh, loops.as_deref());
         outbox.tell_apart(Part::KeptAreas, begun);
-        let caps = Capped::of(&mesh, &topology, measures, &yielder.part(0.9..1.0)).await;
-        let kept = Surface { mesh, topology: Arc::new(topology), loops, measures, caps };
+        let kept = Surface { mesh, topology: Arc::new(topology), loops, measures, caps: OnceLock::new() };
         outbox.leave(|store| {
             store.now.connectivity = Some(found);
             store.now.kept = Some(Arc::new(kept));

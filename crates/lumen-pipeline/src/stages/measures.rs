@@ -78,7 +78,8 @@ fn start_level(store: &Store) -> Option<Run> {
         let known = Known { index, crosses_nothing: false };
         let measured = shape_in_slices(mesh, topology, known, &yielder.part(SMOOTHED..1.0)).await;
         let narrowing = narrowing(&samples, mesh, topology, &measured.index);
-        let caps = kept.caps.as_ref().map_or_else(Vec::new, |capped| cap_areas(&capped.caps, &kept.mesh, mesh));
+        let capped = kept.capped(&yielder.part(1.0..1.0)).await;
+        let caps = capped.map_or_else(Vec::new, |capped| cap_areas(&capped.caps, &kept.mesh, mesh));
         let found = LevelMeasures { shape: measured.shape, narrowing, caps };
         outbox.leave(move |store| {
             store.now.level_measures = Some(Arc::new(found));

@@ -32,6 +32,9 @@ pub(super) const ROW: Row = Row {
     start,
 };
 
+/// The part of the stage's progress in which caps are looked for.
+const CAPS: f32 = 0.05;
+
 /// What the stage works on.
 struct Filtering {
     kept: Arc<Surface>,
@@ -52,19 +55,19 @@ struct Filtering {
 fn start(store: &Store) -> Option<Run> {
     let kept = store.now.kept.clone()?;
     let settings = store.now.settings.smoothing;
-    let filtering = Filtering {
-        walls: kept.smoothed_as(&settings),
-        filter: Filter::new(&settings),
-        index: store.now.indices.kept.clone(),
-        widths: store.known_widths().cloned(),
-        bands: store.known_bands().cloned(),
-        terms: store.terms.clone().filter(|terms| terms.suit(&kept, &settings)),
-        bytes: if store.is_smoothed_again { TERMS_BYTES } else { 0 },
-        kept,
-        settings,
-    };
-    Some(Run::new(|yielder, outbox| async move {
-        let smoothed = Arc::new(filtering.run(&yielder, &outbox).await);
+    let (index, widths) = (store.now.indices.kept.clone(), store.known_widths().cloned());
+    let (bands, terms) = (store.bands.clone(), store.terms.clone());
+    let bytes = if store.is_smoothed_again { TERMS_BYTES } else { 0 };
+    Some(Run::new(move |yielder, outbox| async move {
+        if settings.hold_caps {
+            kept.capped(&yielder.part(0.0..CAPS)).await;
+        }
+        let walls = kept.smoothed_as(&settings);
+        let bands = bands.filter(|(of, _)| Arc::ptr_eq(of, &walls)).map(|(_, bands)| bands);
+        let terms = terms.filter(|terms| terms.suit(&kept, &settings));
+        let filter = Filter::new(&settings);
+        let filtering = Filtering { kept, walls, settings, filter, index, widths, bands, terms, bytes };
+        let smoothed = Arc::new(filtering.run(&yielder.part(CAPS..1.0), &outbox).await);
         outbox.leave(|store| store.now.smoothed = Some(smoothed));
     }))
 }
