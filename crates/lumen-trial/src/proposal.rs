@@ -103,7 +103,8 @@ pub(super) fn proposed(tree: &Tree, from: Vec3, target: Option<Vec3>) -> (Wire, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lumen_mesh::shapes::tube;
+    use glam::DVec3;
+    use lumen_mesh::shapes::{parted, tube};
 
     #[test]
     fn an_end_with_nothing_behind_it_is_not_proposed_as_an_entry() {
@@ -118,6 +119,28 @@ mod tests {
         let proposed_z = |wire| proposed_entry(&tree, &entries, Some(&Wire::named(wire)), |_, _| true).unwrap().at[2];
         // A wire that comes through the waist enters at the widest end; for a thicker one there is nothing behind it.
         assert!(proposed_z(Wire::USUAL) < 8.0 && proposed_z(Wire::LONG_BEND) > 50.0);
+    }
+
+    #[test]
+    fn an_entry_where_the_wire_does_not_fit_is_not_proposed() {
+        let tree = Tree::new(&tube(48, 480, 60.0, |z| 3.0 - 0.01 * z)).unwrap();
+        let entries = tree.entries();
+        let wire = Wire::named(Wire::USUAL);
+        let proposed = |fits: &dyn Fn(&Entry, &Wire) -> bool| proposed_entry(&tree, &entries, Some(&wire), fits);
+        assert_eq!(proposed(&|_, _| true), Some(entries[0].1));
+        assert_eq!(proposed(&|entry, _| *entry != entries[0].1), Some(entries[1].1));
+    }
+
+    #[test]
+    fn a_target_behind_a_fork_that_no_tip_gets_into_gives_way_to_another() {
+        let target = |radius: f64| {
+            let (mesh, end) = parted(radius, 200.0, 100.0, radius / 8.0);
+            let tree = Tree::new(&mesh).unwrap();
+            let target = reached(&tree, Vec3::Z * 4.0, &Wire::named(Wire::LONG_BEND)).unwrap().at.as_dvec3();
+            target.distance(end) < target.distance(DVec3::Z * 200.0)
+        };
+        // The fork takes 1.2 radii, and the longest tip reaches 23 mm.
+        assert!(target(16.0) && !target(24.0));
     }
 
     #[test]

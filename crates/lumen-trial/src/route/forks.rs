@@ -133,7 +133,7 @@ fn way_from(tree: &Tree, branch: &Branch, joint: DVec3, radius: f64) -> Option<D
 }
 
 /// The branch in which one goes on behind its end, or before its start, as the same vessel.
-fn straight_on<'a>(tree: &'a Tree, branch: &Branch, is_reversed: bool) -> Option<&'a Branch> {
+pub(super) fn straight_on<'a>(tree: &'a Tree, branch: &Branch, is_reversed: bool) -> Option<&'a Branch> {
     if is_reversed {
         let parent = branch.parent.filter(|_| branch.goes_straight_on())?;
         return tree.branches().get(parent as usize);

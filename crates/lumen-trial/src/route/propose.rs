@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::forks::{are_long, turn_degrees};
+use super::forks::{are_long, straight_on, turn_degrees};
 use super::way::between;
 use super::{PlaceName, Routes as _, WayEnd, usual_radius};
 use crate::setup::Entry;
@@ -128,7 +128,7 @@ impl Proposals for Tree {
 
     fn ostia(&self) -> Vec<(PlaceName, Entry)> {
         let found = self.branches().iter().flat_map(|branch| {
-            let begins = branch.parent.is_some_and(|parent| is_aorta(&self.branches()[parent as usize]));
+            let begins = branch.parent.is_some_and(|parent| is_of_aorta(self, &self.branches()[parent as usize]));
             let at_start = (begins && branch.ostium > 0).then_some((branch.ostium, true));
             let within = [true, false].into_iter().filter_map(|is_along| Some((fall(branch, is_along)?, is_along)));
             at_start.into_iter().chain(within).filter_map(|(mouth, is_along)| guided(branch, mouth, is_along))
@@ -249,6 +249,16 @@ fn fall(branch: &Branch, is_along: bool) -> Option<usize> {
 
 fn is_aorta(branch: &Branch) -> bool {
     2.0 * usual_radius_of(branch) >= AORTA && branch.length_mm() >= AORTA
+}
+
+/// Whether a branch is an aorta or a piece of one between two ostia, which may be short.
+fn is_of_aorta(tree: &Tree, branch: &Branch) -> bool {
+    let pieces = |is_reversed: bool| {
+        let wide = |piece: &&Branch| 2.0 * usual_radius_of(piece) >= AORTA;
+        std::iter::successors(Some(branch), move |piece| straight_on(tree, piece, is_reversed)).take_while(wide)
+    };
+    let lengths = [true, false].map(|is_reversed| pieces(is_reversed).map(Branch::length_mm).sum::<f64>());
+    lengths[0] + lengths[1] - branch.length_mm() >= AORTA
 }
 
 /// How a wire that enters at an end comes into an aorta; `None` where its tree has none.

@@ -354,9 +354,9 @@ fn a_target_behind_a_turn_back_is_the_last() {
     assert_eq!(from(top), [1, 2, 3], "the longer artery first");
 }
 
-/// An aorta of 18 mm from the origin along z, a little wider at its upper end, with arteries of 6 mm: where each leaves the
+/// An aorta of 18 mm from the origin along z, a little wider at its upper end, with arteries of `radius`: where each leaves the
 /// middle of it, on which way across, and by how many degrees. Its tree, and the ends of the aorta and the arteries.
-fn aorta_with_arteries(arteries: &[(f64, DVec3, f64)]) -> (Tree, Vec<DVec3>) {
+fn aorta_with_arteries(radius: f64, arteries: &[(f64, DVec3, f64)]) -> (Tree, Vec<DVec3>) {
     let [bottom, wide, top] = [0.0, 120.0, 150.0].map(|z| DVec3::Z * z);
     let mut ends = vec![bottom, top];
     let mut vessels = vec![(bottom, top, 9.0), (wide, top, 10.0)];
@@ -365,7 +365,7 @@ fn aorta_with_arteries(arteries: &[(f64, DVec3, f64)]) -> (Tree, Vec<DVec3>) {
         let (from, way) = (DVec3::Z * z, across * sin + DVec3::Z * cos);
         let to = from + 50.0 * way;
         ends.push(to);
-        vessels.push((from, to, 3.0));
+        vessels.push((from, to, radius));
     }
     let inside = |p: DVec3| {
         vessels.iter().map(|&(from, to, radius)| in_capsule(p, from, to, radius)).fold(f64::NEG_INFINITY, f64::max)
@@ -376,7 +376,7 @@ fn aorta_with_arteries(arteries: &[(f64, DVec3, f64)]) -> (Tree, Vec<DVec3>) {
 
 #[test]
 fn between_ostia_that_lie_closer_than_the_vessel_is_wide_it_goes_on_as_the_whole_vessel_does() {
-    let (tree, ends) = aorta_with_arteries(&[(50.0, -DVec3::Y, 75.0), (74.0, DVec3::Y, 120.0)]);
+    let (tree, ends) = aorta_with_arteries(3.0, &[(50.0, -DVec3::Y, 75.0), (74.0, DVec3::Y, 120.0)]);
     let is_short = |branch: &Branch| branch.ends == [End::Joint; 2] && branch.length_mm() < 18.0;
     assert_eq!(tree.branches().iter().filter(|branch| is_short(branch)).count(), 1);
     // What turns back is the last target, and past the other artery the aorta goes straight on.
@@ -387,10 +387,28 @@ fn between_ostia_that_lie_closer_than_the_vessel_is_wide_it_goes_on_as_the_whole
     assert!(matches!(forks[..], [fork] if (fork.turn_degrees - 75.0).abs() < 5.0), "{forks:?}");
 }
 
+/// Arteries that leave an aorta closer to each other than it is wide.
+const CLOSE: [(f64, DVec3, f64); 3] = [(50.0, DVec3::NEG_Y, 75.0), (61.0, DVec3::X, 75.0), (72.0, DVec3::Y, 75.0)];
+
+#[test]
+fn an_artery_that_leaves_a_short_piece_of_an_aorta_is_entered_in_its_ostium_too() {
+    let (tree, ends) = aorta_with_arteries(2.4, &CLOSE);
+    let ostia = tree.ostia();
+    assert_eq!(ostia.len(), 3, "{ostia:?}");
+    for end in &ends[2..] {
+        let (_, entry) = tree.ostium_on_way(Vec3::Z * 5.0, end.as_vec3()).unwrap();
+        let nearest = ends.iter().min_by(|a, b| {
+            let away = |end: &DVec3| end.distance(Vec3::from(entry.at).as_dvec3());
+            away(a).total_cmp(&away(b))
+        });
+        assert_eq!(nearest, Some(end), "{entry:?}");
+    }
+}
+
 #[test]
 fn a_piece_of_an_aorta_between_two_ostia_is_no_artery_that_leads_into_it() {
     // Both pieces beside the second artery are shorter than a branch of an aorta is.
-    let (tree, ends) = aorta_with_arteries(&[(50.0, -DVec3::Y, 75.0), (61.0, DVec3::X, 75.0), (72.0, DVec3::Y, 75.0)]);
+    let (tree, ends) = aorta_with_arteries(3.0, &CLOSE);
     let found = ends_of(tree.entries().into_iter().map(|(_, entry)| entry.at), &ends);
     assert_eq!(found[..2], [0, 1], "by the aorta, not by an artery at its side: {found:?}");
 }
