@@ -44,7 +44,8 @@ impl Capped {
         let loops = oriented_loops(&topology);
         let volume_mm3 = loops.as_deref().map(|loops| volume_within(&walls, loops));
         let measures = Measures { volume_mm3, ..*measures };
-        let walls = Surface { mesh: Arc::new(walls), topology: Arc::new(topology), loops, measures, caps: OnceLock::new() };
+        let walls =
+            Surface { mesh: Arc::new(walls), topology: Arc::new(topology), loops, measures, caps: OnceLock::new() };
         Some(Box::new(Self { caps, walls: Arc::new(walls) }))
     }
 }

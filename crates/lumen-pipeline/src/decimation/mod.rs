@@ -62,6 +62,7 @@ mod tests {
     use glam::Vec3;
     use lumen_mesh::self_intersections;
     use lumen_mesh::shapes::{icosphere, joined, tube};
+    use lumen_mesh::split_mix::SplitMix64;
 
     fn levels_of(mesh: &TriMesh, method: Method) -> ProgressiveMesh {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
@@ -235,6 +236,19 @@ mod tests {
         let levels = levels_of(&mesh, Method::Schroeder);
         assert!(levels.errors.is_empty());
         assert_eq!(levels.limit.geometry as usize, mesh.positions.len());
+    }
+
+    /// From its ends on one vertex after another becomes free: hundreds of rounds, each with a higher threshold.
+    #[test]
+    fn a_strip_of_random_triangles_ends() {
+        let mut random = SplitMix64::new(1);
+        let mut point = || Vec3::from_array(std::array::from_fn(|_| 100.0 * random.unit() as f32));
+        let positions: Vec<Vec3> = (0..3002).map(|_| point()).collect();
+        let triangles: Vec<[u32; 3]> =
+            (0..3000).map(|i| if i % 2 == 0 { [i, i + 1, i + 2] } else { [i + 1, i, i + 2] }).collect();
+        let mesh = TriMesh { positions, triangles };
+        let levels = levels_of(&mesh, Method::Schroeder);
+        assert!(levels.triangles_after(levels.errors.len() as u32) < 100);
     }
 
     #[test]

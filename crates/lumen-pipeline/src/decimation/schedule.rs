@@ -119,7 +119,7 @@ impl Schedule {
             }
         }
         if self.round.is_empty() {
-            self.threshold = (self.threshold * GROWTH).max(least * GROWTH);
+            self.raise(least);
             return least < f32::INFINITY;
         }
         if self.round.len() <= FEW {
@@ -131,7 +131,13 @@ impl Schedule {
             self.round.clear();
             self.round.extend(self.sorted.iter().map(|&keyed| keyed as u32));
         }
-        self.threshold *= GROWTH;
+        self.raise(0.0);
         true
+    }
+
+    /// Raises the threshold, beyond the least key that is above it. Rounds in which a few go after each other, each freed by the
+    /// one before, can be hundreds: finite it stays, so that what is stuck is in none of them.
+    fn raise(&mut self, least: f32) {
+        self.threshold = (self.threshold.max(least) * GROWTH).min(f32::MAX);
     }
 }
