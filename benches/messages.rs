@@ -2,7 +2,7 @@
 //! with one. `benches/worker.mjs` starts it.
 //!
 //! - `{"open": ID, "name": FILE, "settings": {}}`, `{"set": ID, "settings": {}}`, `{"start": ID, "setup": {}}` (the coronary
-//!   sample) and `{"replay": ID}` are answered with `{"head": [BYTES]}`; the arrays of the message are whoever sends it's.
+//!   sample) and `{"replay": ID}` are answered with `{"head": [BYTES]}`; who sends the message adds its arrays.
 //! - `{"job": "pipeline" or "trial", "head": [BYTES], "lengths": [BYTES OF EACH ARRAY]}`, a message of the Worker's, is answered
 //!   with what a bench asks of it: `{"generation": N, "report": {}}`, `{"failed": SENTENCE}`, `{"ready": true}`,
 //!   `{"step": N, "steps_per_second": N}`, `{"summary": {}}`, or `{}`.

@@ -42,6 +42,9 @@ const WIDER: f64 = 2.2;
 /// Off the plane, in radii of the cap, a corner of a cap lies at most.
 const OFF_PLANE: f64 = 0.01;
 
+/// By how much the cosine of two rounded normals is off at most.
+const ROUNDED: f32 = 1e-5;
+
 /// No triangle, and no region.
 const NONE: u32 = u32::MAX;
 
@@ -105,8 +108,8 @@ pub fn without_caps(triangles: &[[u32; 3]], caps: &[FlatCap]) -> Vec<[u32; 3]> {
 /// The search for caps in one surface.
 struct Search<'a> {
     mesh: &'a TriMesh,
-    /// Unit normals; 0 where there is none.
-    normals: Vec<DVec3>,
+    /// Unit normals, rounded; 0 where there is none.
+    normals: Vec<Vec3>,
     /// The triangle on the other side of each edge; [`NONE`] where there is none, or more than one.
     across: Vec<[u32; 3]>,
     /// The region of each triangle.
@@ -116,23 +119,20 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    async fn new(mesh: &'a TriMesh, topology: &'a Topology, yielder: &Yielder) -> Self {
-        let normal = |t: usize| {
-            let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
-            (b - a).cross(c - a).normalize_or_zero()
-        };
+    async fn new(mesh: &'a TriMesh, topology: &Topology, yielder: &Yielder) -> Self {
         let count = mesh.triangles.len();
         let mut normals = Vec::with_capacity(count);
         for block in blocks(count, TRIANGLES) {
             let first = block.start;
-            let found =
-                parallel::map_ranges(block.len(), PIECE, |range| range.map(|i| normal(first + i)).collect::<Vec<_>>());
+            let found = parallel::map_ranges(block.len(), PIECE, |range| {
+                range.map(|i| normal(mesh, first + i).as_vec3()).collect::<Vec<_>>()
+            });
             normals.extend(found.into_iter().flatten());
             yielder.rest(0.3 * normals.len() as f32 / count as f32).await;
         }
         let mut across = vec![[NONE; 3]; count];
         let mut ends = Vec::new();
-        for block in blocks(topology.vertex_count(), TRIANGLES) {
+        for block in blocks(topology.vertex_count(), TRIANGLES / 2) {
             let end = block.end;
             block.for_each(|v| join_around(mesh, topology, v as u32, &mut ends, &mut across));
             yielder.rest(0.3 + 0.3 * end as f32 / topology.vertex_count() as f32).await;
@@ -152,17 +152,27 @@ impl<'a> Search<'a> {
 
     /// Whether a triangle has a neighbour in its plane, and one across a crease that stands out.
     fn may_be_at_a_rim(&self, t: u32) -> bool {
-        let normal = self.normals[t as usize];
-        if normal == DVec3::ZERO {
+        let rounded = self.normals[t as usize];
+        let may = |least: f32, most: f32| {
+            let between = |other: u32| (least..most).contains(&self.normals[other as usize].dot(rounded));
+            rounded != Vec3::ZERO && self.across(t).any(between)
+        };
+        if !(may(FLAT as f32 - ROUNDED, 2.0) && may(-2.0, CREASE as f32 + ROUNDED)) {
             return false;
         }
-        let cosines = || self.across(t).map(|(_, other)| self.normals[other as usize].dot(normal));
+        let normal = self.normal(t);
+        let cosines = || self.across(t).map(|other| self.normal(other).dot(normal));
         cosines().any(|cosine| cosine > FLAT) && cosines().any(|cosine| cosine < CREASE)
     }
 
-    /// The triangles on the other side of the edges of `t`, and the edge of each.
-    fn across(&self, t: u32) -> impl Iterator<Item = (usize, u32)> + use<> {
-        self.across[t as usize].into_iter().enumerate().filter(|&(_, other)| other != NONE)
+    /// The unit normal of a triangle; 0 where it has none.
+    fn normal(&self, t: u32) -> DVec3 {
+        normal(self.mesh, t as usize)
+    }
+
+    /// The triangles on the other side of the edges of `t`.
+    fn across(&self, t: u32) -> impl Iterator<Item = u32> + use<> {
+        self.across[t as usize].into_iter().filter(|&other| other != NONE)
     }
 
     /// Groups `seed` with all that lie in its plane, unless it is in a group.
@@ -170,12 +180,12 @@ impl<'a> Search<'a> {
         if self.regions[seed as usize] != NONE {
             return;
         }
-        let (number, normal) = (self.found.len() as u32, self.normals[seed as usize]);
+        let (number, normal) = (self.found.len() as u32, self.normal(seed));
         let (mut members, mut stack) = (vec![seed], vec![seed]);
         self.regions[seed as usize] = number;
         while let Some(t) = stack.pop() {
-            for (_, other) in self.across(t) {
-                if self.regions[other as usize] == NONE && self.normals[other as usize].dot(normal) > FLAT {
+            for other in self.across(t) {
+                if self.regions[other as usize] == NONE && self.normal(other).dot(normal) > FLAT {
                     self.regions[other as usize] = number;
                     members.push(other);
                     stack.push(other);
@@ -202,6 +212,7 @@ impl<'a> Search<'a> {
             let triangle = self.mesh.triangles[t as usize];
             let [a, b, c] = triangle.map(corner);
             let vector = (b - a).cross(c - a) / 2.0;
+            let own = self.normal(t);
             area += vector.length();
             moment += (a + b + c) / 3.0 * vector.length();
             normal += vector;
@@ -213,9 +224,9 @@ impl<'a> Search<'a> {
                     continue;
                 }
                 let [from, to] = [triangle[i], triangle[(i + 1) % 3]];
-                let cosine = self.normals[other as usize].dot(self.normals[t as usize]);
+                let cosine = self.normal(other).dot(own);
                 let apex = self.mesh.triangles[other as usize].into_iter().find(|&v| v != from && v != to)?;
-                let is_behind = (corner(apex) - corner(from)).dot(self.normals[t as usize]) < 0.0;
+                let is_behind = (corner(apex) - corner(from)).dot(own) < 0.0;
                 let is_creased = is_behind && cosine < CREASE;
                 // Most regions end here: the facets of what is smooth.
                 if !is_creased && region.len() + 2 < FEW {
@@ -266,7 +277,7 @@ impl<'a> Search<'a> {
         let mut stack = cap.triangles.clone();
         let mut wall = Vec::new();
         while let Some(t) = stack.pop() {
-            for (_, other) in self.across(t) {
+            for other in self.across(t) {
                 let triangle = self.mesh.triangles[other as usize];
                 let depths = triangle.map(depth);
                 let is_near = depths.iter().any(|&depth| depth < deepest)
@@ -287,6 +298,12 @@ impl<'a> Search<'a> {
             largest > cap.area_mm2 / wider && largest < cap.area_mm2 * wider
         })
     }
+}
+
+/// The unit normal of triangle `t`; 0 where it has none.
+fn normal(mesh: &TriMesh, t: usize) -> DVec3 {
+    let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
+    (b - a).cross(c - a).normalize_or_zero()
 }
 
 /// Enters what lies across the edges from `v` to vertices of larger numbers into `across`: for each triangle and edge the

@@ -51,7 +51,7 @@ impl Capped {
 }
 
 impl Surface {
-    /// Its flat caps, which are looked for the first time: as long as all other connectivity takes ten times.
+    /// Its flat caps. The first call looks for them, which takes several times as long as all other connectivity.
     pub(crate) async fn capped(&self, yielder: &Yielder) -> Option<&Capped> {
         if self.caps.get().is_none() {
             let found = Capped::of(self, yielder).await;
@@ -288,6 +288,25 @@ mod tests {
         let target = Target::Reduction(0);
         let (areas, _) = areas(&mesh, Settings { smoothing, target, ..Settings::default() });
         assert!(areas.iter().all(|area| !area.is_flat()), "{areas:?}");
+    }
+
+    #[test]
+    fn caps_that_are_held_later_are_as_if_they_were_held_at_once() {
+        let mesh = Arc::new(capped(96, 120, 30.0, 2.0));
+        let of = |hold_caps| {
+            let smoothing = Smoothing { hold_caps, ..Smoothing::AUTO };
+            Settings { smoothing, target: Target::Reduction(900), ..Settings::default() }
+        };
+        let mut pipeline = Pipeline::new(mesh.clone(), of(false));
+        pipeline.finish().unwrap();
+        assert_eq!(pipeline.level_measures().unwrap().caps.len(), 2, "found, though they are not held");
+        pipeline.set(of(true)).unwrap();
+        pipeline.finish().unwrap();
+        let mut at_once = Pipeline::new(mesh, of(true));
+        at_once.finish().unwrap();
+        let level = |pipeline: &Pipeline| pipeline.reduced().unwrap().mesh.clone();
+        assert_eq!(level(&pipeline), level(&at_once));
+        assert_eq!(pipeline.level_measures().unwrap().caps, at_once.level_measures().unwrap().caps);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use glam::DVec3;
 use web_time::Instant;
 
 use super::placement::{PlacementError, rotation};
-use super::proposal::{proposed, proposed_entry, reached, suiting, with_room};
+use super::proposal::{Choice, proposed, proposed_entry, reached, suiting, with_room};
 use super::reach::{ReachFinding, finding, rank};
 use super::route::{Fork, PlaceName, Proposals as _, Route, RouteError, Routes as _, phantom_task};
 use super::setup::{Entry, Setup};
@@ -97,8 +97,11 @@ impl Course {
         let is_inside = |entry: &Entry| tree.is_inside(Vec3::from(entry.at));
         let found = tree.entries().into_iter().filter(|(_, entry)| is_inside(entry));
         let own = task.iter().map(|(entry, _)| (PlaceName::Own, *entry));
-        let entries: Vec<_> = own.chain(found).chain(tree.ostia()).collect();
+        let ostia = tree.ostia();
+        let entries: Vec<_> = own.chain(found).chain(ostia.iter().cloned()).collect();
         let is_open = setup.entry.is_none() && setup.target.is_none() && task.is_none();
+        // A coronary artery is not reached by a wire alone: a guide catheter leads it into the ostium.
+        let guides: &[_] = if is_open { &ostia } else { &[] };
         let entry = match (setup.entry, &task) {
             (Some(entry), _) => Some(entry),
             (None, Some((entry, _))) => Some(*entry),
@@ -107,7 +110,7 @@ impl Course {
                 let fits = |entry: &Entry, wire: &Wire| {
                     Simulation::new(wire, wire.friction, entry, 0.0, Some(wall.clone())).is_ok()
                 };
-                proposed_entry(&tree, &entries, (!setup.proposes_wire).then_some(&setup.wire), fits)
+                proposed_entry(&tree, &entries, (!setup.proposes_wire).then_some(&setup.wire), guides, fits)
             }
         };
         let mut entry = entry.ok_or(TrialError::NoEntry)?;
@@ -117,7 +120,7 @@ impl Course {
         if proposes_wire {
             (setup.wire, best) = match sample {
                 Some(sample) => (Wire::for_sample(sample), None),
-                None => proposed(&tree, from, setup.target.map(Vec3::from)),
+                None => proposed(&tree, from, setup.target.map(Vec3::from), guides),
             };
         }
         let found = tree.targets(from, 0.0).into_iter().map(|target| (target.name(), target.at.to_array()));
@@ -127,15 +130,16 @@ impl Course {
             (Some(target), _) => target,
             (None, Some((_, target))) => target.to_array(),
             (None, None) => {
-                let best = best.or_else(|| reached(&tree, from, &setup.wire)).map(|target| target.at.to_array());
-                best.or_else(|| Some(targets.first()?.1)).ok_or(TrialError::NoTarget)?
+                let best = best.or_else(|| reached(&tree, from, &setup.wire, Choice::Given, guides));
+                best.map(|target| target.at.to_array())
+                    .or_else(|| Some(targets.first()?.1))
+                    .ok_or(TrialError::NoTarget)?
             }
         };
-        // A coronary artery is not reached by a wire alone: a guide catheter leads it into the ostium.
         if is_open && let Some((_, guided)) = tree.ostium_on_way(from, Vec3::from(target)) {
             (entry, from) = (guided, Vec3::from(guided.at));
             if proposes_wire {
-                setup.wire = proposed(&tree, from, Some(Vec3::from(target))).0;
+                setup.wire = proposed(&tree, from, Some(Vec3::from(target)), &[]).0;
             }
         }
         (setup.entry, setup.target) = (Some(entry), Some(target));

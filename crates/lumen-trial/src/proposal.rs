@@ -1,7 +1,7 @@
 //! What wire and target are proposed where nobody has said any.
 
-use super::reach::gets_in;
-use super::route::{PlaceName, Proposals as _, Route, Routes as _, Target};
+use super::reach::{ASIDE, gets_in};
+use super::route::{Fork, PlaceName, Proposals as _, Route, Routes as _, Target, last_passed};
 use super::setup::Entry;
 use super::wire::Wire;
 use lumen_mesh::Vec3;
@@ -15,8 +15,7 @@ const WIDE: f64 = 2.0;
 /// Unless it comes less far than this part of where one of 0.014 in comes.
 const PART: f64 = 0.5;
 
-/// So many of the widest ends are looked at as entries, and so many targets that a wire comes to, before one is taken that is
-/// hard to reach.
+/// So many of the widest ends are looked at as entries, and so many other targets where the first is hard to reach.
 const ENTRIES: usize = 6;
 const TARGETS: usize = 12;
 /// An entry is proposed if what can be reached from it lies at least this part as far as from the best of the others.
@@ -28,13 +27,14 @@ pub(super) fn proposed_entry(
     tree: &Tree,
     entries: &[(PlaceName, Entry)],
     wire: Option<&Wire>,
+    ostia: &[(PlaceName, Entry)],
     fits: impl Fn(&Entry, &Wire) -> bool,
 ) -> Option<Entry> {
     let length = |entry: &Entry| {
         let from = Vec3::from(entry.at);
         let (wire, target) = match wire {
-            Some(wire) => (wire.clone(), reached(tree, from, wire)),
-            None => proposed(tree, from, None),
+            Some(wire) => (wire.clone(), reached(tree, from, wire, Choice::Given, ostia)),
+            None => proposed(tree, from, None, ostia),
         };
         target.filter(|_| fits(entry, &wire)).map_or(0.0, |target| target.length_mm)
     };
@@ -62,28 +62,63 @@ pub(super) fn with_room(route: &Route, names: impl Iterator<Item = &'static str>
     names.map(Wire::named).filter(|wire| route.clearance(ROOM * wire.diameter_mm).is_ok()).collect()
 }
 
-/// The best target that a wire can reach: the first with room for the wire all along and no fork that no tip gets into, of
-/// [`TARGETS`]; else the first that the wire comes to.
-pub(super) fn reached(tree: &Tree, from: Vec3, wire: &Wire) -> Option<Target> {
-    let targets = tree.targets(from, ROOM * wire.diameter_mm).into_iter();
+/// Where a wire comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Choice {
+    /// It is the only one.
+    Given,
+    /// Others may go in where it fails.
+    Proposed,
+}
+
+/// The best target that a wire can reach: the first that it comes to; where it has less room on the way than it should, or no
+/// tip gets into one of the forks, the first of the next [`TARGETS`] where that is otherwise. Into one of the `ostia` a guide
+/// catheter leads it.
+pub(super) fn reached(
+    tree: &Tree,
+    from: Vec3,
+    wire: &Wire,
+    choice: Choice,
+    ostia: &[(PlaceName, Entry)],
+) -> Option<Target> {
+    let mut targets = tree.targets(from, ROOM * wire.diameter_mm).into_iter();
     // The middle of the lumen may go another way there than the spheres do that the room was taken of.
-    let mut ways = targets.filter_map(|target| {
+    let way = |target: Target| {
         let route = tree.route(from, target.at).ok()?;
         route.clearance(wire.diameter_mm).is_ok().then_some((target, route))
-    });
-    let is_open = |route: &Route| {
-        route.clearance(ROOM * wire.diameter_mm).is_ok() && gets_in(&route.forks(tree), &suiting(route, wire))
     };
-    let (first, route) = ways.next()?;
-    if is_open(&route) {
+    let (first, route) = targets.find_map(way)?;
+    let forks = |target: &Target, route: &Route| {
+        let guided = last_passed(ostia, route, target.at).map_or(f64::NEG_INFINITY, |(arc, _)| arc);
+        let forks = route.forks(tree);
+        forks.into_iter().filter(|fork| fork.arc_mm > guided).collect::<Vec<_>>()
+    };
+    let is_open = |forks: &[Fork], route: &Route| {
+        let has_room = route.clearance(ROOM * wire.diameter_mm).is_ok();
+        has_room
+            && match choice {
+                Choice::Given => gets_in(forks, std::slice::from_ref(wire)),
+                Choice::Proposed => gets_in(forks, &suiting(route, wire)),
+            }
+    };
+    if is_open(&forks(&first, &route), &route) {
         return Some(first);
     }
-    let open = ways.take(TARGETS - 1).find(|(_, route)| is_open(route));
+    let open = targets.take(TARGETS).filter_map(way).find(|(target, route)| {
+        let forks = forks(target, route);
+        // Of a turn by more than a right angle nothing is known.
+        forks.iter().all(|fork| fork.turn_degrees <= ASIDE) && is_open(&forks, route)
+    });
     Some(open.map_or(first, |(target, _)| target))
 }
 
 /// The wire for the way to a target; without one, for the best that it can reach, and that.
-pub(super) fn proposed(tree: &Tree, from: Vec3, target: Option<Vec3>) -> (Wire, Option<Target>) {
+pub(super) fn proposed(
+    tree: &Tree,
+    from: Vec3,
+    target: Option<Vec3>,
+    ostia: &[(PlaceName, Entry)],
+) -> (Wire, Option<Target>) {
     let [thick, thin] = [Wire::LONG_BEND, Wire::USUAL].map(Wire::named);
     if let Some(target) = target {
         // That there is no route is said when it is asked for.
@@ -92,7 +127,7 @@ pub(super) fn proposed(tree: &Tree, from: Vec3, target: Option<Vec3>) -> (Wire, 
             .is_ok_and(|route| route.usual_radius_mm() >= WIDE && route.clearance(ROOM * thick.diameter_mm).is_ok());
         return (if is_wide { thick } else { thin }, None);
     }
-    let [by_thick, by_thin] = [&thick, &thin].map(|wire| reached(tree, from, wire));
+    let [by_thick, by_thin] = [&thick, &thin].map(|wire| reached(tree, from, wire, Choice::Proposed, ostia));
     let is_far = |target: &Target| by_thin.as_ref().is_none_or(|other| target.length_mm >= PART * other.length_mm);
     match by_thick.filter(|target| target.usual_radius_mm >= WIDE && is_far(target)) {
         Some(target) => (thick, Some(target)),
@@ -116,7 +151,8 @@ mod tests {
         let tree = Tree::new(&tube(48, 480, 60.0, radius)).unwrap();
         let entries = tree.entries();
         assert!(entries[0].1.at[2] < 8.0, "the widest end is listed first: {entries:?}");
-        let proposed_z = |wire| proposed_entry(&tree, &entries, Some(&Wire::named(wire)), |_, _| true).unwrap().at[2];
+        let proposed_z =
+            |wire| proposed_entry(&tree, &entries, Some(&Wire::named(wire)), &[], |_, _| true).unwrap().at[2];
         // A wire that comes through the waist enters at the widest end; for a thicker one there is nothing behind it.
         assert!(proposed_z(Wire::USUAL) < 8.0 && proposed_z(Wire::LONG_BEND) > 50.0);
     }
@@ -126,21 +162,23 @@ mod tests {
         let tree = Tree::new(&tube(48, 480, 60.0, |z| 3.0 - 0.01 * z)).unwrap();
         let entries = tree.entries();
         let wire = Wire::named(Wire::USUAL);
-        let proposed = |fits: &dyn Fn(&Entry, &Wire) -> bool| proposed_entry(&tree, &entries, Some(&wire), fits);
+        let proposed = |fits: &dyn Fn(&Entry, &Wire) -> bool| proposed_entry(&tree, &entries, Some(&wire), &[], fits);
         assert_eq!(proposed(&|_, _| true), Some(entries[0].1));
         assert_eq!(proposed(&|entry, _| *entry != entries[0].1), Some(entries[1].1));
     }
 
     #[test]
     fn a_target_behind_a_fork_that_no_tip_gets_into_gives_way_to_another() {
-        let target = |radius: f64| {
+        let goes_into_branch = |radius: f64, choice| {
             let (mesh, end) = parted(radius, 200.0, 100.0, radius / 8.0);
             let tree = Tree::new(&mesh).unwrap();
-            let target = reached(&tree, Vec3::Z * 4.0, &Wire::named(Wire::LONG_BEND)).unwrap().at.as_dvec3();
+            let target =
+                reached(&tree, Vec3::Z * 4.0, &Wire::named(Wire::LONG_BEND), choice, &[]).unwrap().at.as_dvec3();
             target.distance(end) < target.distance(DVec3::Z * 200.0)
         };
-        // The fork takes 1.2 radii, and the longest tip reaches 23 mm.
-        assert!(target(16.0) && !target(24.0));
+        // The fork takes 1.2 radii. The longest tip reaches 23 mm, that of the wire 9.
+        assert!(goes_into_branch(16.0, Choice::Proposed) && !goes_into_branch(24.0, Choice::Proposed));
+        assert!(goes_into_branch(7.0, Choice::Given) && !goes_into_branch(16.0, Choice::Given));
     }
 
     #[test]

@@ -19,7 +19,7 @@ use super::wire::Wire;
 use lumen_message::messages;
 
 /// In degrees: a tip that is bent by more points back, and of forks that turn by more nothing is said.
-const ASIDE: f64 = 90.0;
+pub(super) const ASIDE: f64 = 90.0;
 /// A fork takes a reach of so many radii of the lumen that is left.
 const RADII: f64 = 1.2;
 /// The radius of a lumen before a fork is known to a tenth: a tip that lacks no more gets in.

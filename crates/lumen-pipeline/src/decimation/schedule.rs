@@ -135,8 +135,8 @@ impl Schedule {
         true
     }
 
-    /// Raises the threshold, beyond the least key that is above it. Rounds in which a few go after each other, each freed by the
-    /// one before, can be hundreds: finite it stays, so that what is stuck is in none of them.
+    /// Raises the threshold, to beyond `least` at least. It stays finite over any number of rounds: the key of what is stuck is
+    /// infinite, and would be in every round.
     fn raise(&mut self, least: f32) {
         self.threshold = (self.threshold.max(least) * GROWTH).min(f32::MAX);
     }

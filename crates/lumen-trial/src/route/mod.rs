@@ -12,6 +12,7 @@ use std::fmt;
 
 pub use forks::Fork;
 pub use place_name::{PlaceLabel, PlaceName, TargetLabel, WayEnd};
+pub(crate) use propose::last_passed;
 pub use propose::{Proposals, Target, phantom_task};
 pub use way::{CrossSection, OnRoute, Route, RoutePoint, Routes};
 

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::forks::{are_long, straight_on, turn_degrees};
 use super::way::between;
-use super::{PlaceName, Routes as _, WayEnd, usual_radius};
+use super::{PlaceName, Route, Routes as _, WayEnd, usual_radius};
 use crate::setup::Entry;
 use lumen_vessel::phantom::{Sample, Vessel, vessels};
 use lumen_vessel::{Branch, End, NONE, Tree, direction};
@@ -140,13 +140,7 @@ impl Proposals for Tree {
     fn ostium_on_way(&self, from: Vec3, to: Vec3) -> Option<(PlaceName, Entry)> {
         let ostia = self.ostia();
         let route = (!ostia.is_empty()).then(|| self.route(from, to).ok()).flatten()?;
-        let passed = ostia.into_iter().filter_map(|ostium| {
-            let (at, way) = (Vec3::from(ostium.1.at), Vec3::from(ostium.1.direction).as_dvec3());
-            let on = route.locate(at.as_dvec3());
-            let is_on_way = on.distance_mm < on.radius_mm && route.at(on.arc_mm).direction.dot(way) > 0.0;
-            (is_on_way && f64::from(at.distance(to)) > NEAREST).then_some((on.arc_mm, ostium))
-        });
-        passed.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ostium)| ostium)
+        last_passed(&ostia, &route, to).map(|(_, ostium)| *ostium)
     }
 
     fn targets(&self, from: Vec3, room_mm: f64) -> Vec<Target> {
@@ -203,6 +197,21 @@ impl Proposals for Tree {
         found.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
         found.into_iter().map(|(.., target)| target).collect()
     }
+}
+
+/// That of some ostia which a route to `to` passes last, with the arc length in mm.
+pub(crate) fn last_passed<'a>(
+    ostia: &'a [(PlaceName, Entry)],
+    route: &Route,
+    to: Vec3,
+) -> Option<(f64, &'a (PlaceName, Entry))> {
+    let passed = ostia.iter().filter_map(|ostium| {
+        let (at, way) = (Vec3::from(ostium.1.at), Vec3::from(ostium.1.direction).as_dvec3());
+        let on = route.locate(at.as_dvec3());
+        let is_on_way = on.distance_mm < on.radius_mm && route.at(on.arc_mm).direction.dot(way) > 0.0;
+        (is_on_way && f64::from(at.distance(to)) > NEAREST).then_some((on.arc_mm, ostium))
+    });
+    passed.max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// Whether a way turns back where it leaves one branch for another.
