@@ -101,7 +101,8 @@ impl Course {
         let entries: Vec<_> = own.chain(found).chain(ostia.iter().cloned()).collect();
         let is_open = setup.entry.is_none() && setup.target.is_none() && task.is_none();
         // A coronary artery is not reached by a wire alone: a guide catheter leads it into the ostium.
-        let guides: &[_] = if is_open { &ostia } else { &[] };
+        let ostia: &[_] = if is_open { &ostia } else { &[] };
+        let choice = Choice::Open { is_only: !setup.proposes_wire, ostia };
         let entry = match (setup.entry, &task) {
             (Some(entry), _) => Some(entry),
             (None, Some((entry, _))) => Some(*entry),
@@ -110,7 +111,7 @@ impl Course {
                 let fits = |entry: &Entry, wire: &Wire| {
                     Simulation::new(wire, wire.friction, entry, 0.0, Some(wall.clone())).is_ok()
                 };
-                proposed_entry(&tree, &entries, (!setup.proposes_wire).then_some(&setup.wire), guides, fits)
+                proposed_entry(&tree, &entries, (!setup.proposes_wire).then_some(&setup.wire), fits)
             }
         };
         let mut entry = entry.ok_or(TrialError::NoEntry)?;
@@ -120,7 +121,7 @@ impl Course {
         if proposes_wire {
             (setup.wire, best) = match sample {
                 Some(sample) => (Wire::for_sample(sample), None),
-                None => proposed(&tree, from, setup.target.map(Vec3::from), guides),
+                None => proposed(&tree, from, setup.target.map(Vec3::from), choice),
             };
         }
         let found = tree.targets(from, 0.0).into_iter().map(|target| (target.name(), target.at.to_array()));
@@ -130,7 +131,7 @@ impl Course {
             (Some(target), _) => target,
             (None, Some((_, target))) => target.to_array(),
             (None, None) => {
-                let best = best.or_else(|| reached(&tree, from, &setup.wire, Choice::Given, guides));
+                let best = best.or_else(|| reached(&tree, from, &setup.wire, choice));
                 best.map(|target| target.at.to_array())
                     .or_else(|| Some(targets.first()?.1))
                     .ok_or(TrialError::NoTarget)?
@@ -139,7 +140,7 @@ impl Course {
         if is_open && let Some((_, guided)) = tree.ostium_on_way(from, Vec3::from(target)) {
             (entry, from) = (guided, Vec3::from(guided.at));
             if proposes_wire {
-                setup.wire = proposed(&tree, from, Some(Vec3::from(target)), &[]).0;
+                setup.wire = proposed(&tree, from, Some(Vec3::from(target)), Choice::First).0;
             }
         }
         (setup.entry, setup.target) = (Some(entry), Some(target));

@@ -27,14 +27,13 @@ pub(super) fn proposed_entry(
     tree: &Tree,
     entries: &[(PlaceName, Entry)],
     wire: Option<&Wire>,
-    ostia: &[(PlaceName, Entry)],
     fits: impl Fn(&Entry, &Wire) -> bool,
 ) -> Option<Entry> {
     let length = |entry: &Entry| {
         let from = Vec3::from(entry.at);
         let (wire, target) = match wire {
-            Some(wire) => (wire.clone(), reached(tree, from, wire, Choice::Given, ostia)),
-            None => proposed(tree, from, None, ostia),
+            Some(wire) => (wire.clone(), reached(tree, from, wire, Choice::First)),
+            None => proposed(tree, from, None, Choice::First),
         };
         target.filter(|_| fits(entry, &wire)).map_or(0.0, |target| target.length_mm)
     };
@@ -62,25 +61,23 @@ pub(super) fn with_room(route: &Route, names: impl Iterator<Item = &'static str>
     names.map(Wire::named).filter(|wire| route.clearance(ROOM * wire.diameter_mm).is_ok()).collect()
 }
 
-/// Where a wire comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Choice {
-    /// It is the only one.
-    Given,
-    /// Others may go in where it fails.
-    Proposed,
+/// Which of the targets that a wire comes to is taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Choice<'a> {
+    /// The first.
+    First,
+    /// The first; where the wire has less room on the way than it should, or its tip does not get into one of the forks, the
+    /// first of the next [`TARGETS`] where that is otherwise.
+    Open {
+        /// Whether it is the only wire. Else the tip of one that follows it may do as well.
+        is_only: bool,
+        /// Where a guide catheter leads it in: what lies before is the catheter's.
+        ostia: &'a [(PlaceName, Entry)],
+    },
 }
 
-/// The best target that a wire can reach: the first that it comes to; where it has less room on the way than it should, or no
-/// tip gets into one of the forks, the first of the next [`TARGETS`] where that is otherwise. Into one of the `ostia` a guide
-/// catheter leads it.
-pub(super) fn reached(
-    tree: &Tree,
-    from: Vec3,
-    wire: &Wire,
-    choice: Choice,
-    ostia: &[(PlaceName, Entry)],
-) -> Option<Target> {
+/// The best target that a wire can reach.
+pub(super) fn reached(tree: &Tree, from: Vec3, wire: &Wire, choice: Choice<'_>) -> Option<Target> {
     let mut targets = tree.targets(from, ROOM * wire.diameter_mm).into_iter();
     // The middle of the lumen may go another way there than the spheres do that the room was taken of.
     let way = |target: Target| {
@@ -88,6 +85,7 @@ pub(super) fn reached(
         route.clearance(wire.diameter_mm).is_ok().then_some((target, route))
     };
     let (first, route) = targets.find_map(way)?;
+    let Choice::Open { is_only, ostia } = choice else { return Some(first) };
     let forks = |target: &Target, route: &Route| {
         let guided = last_passed(ostia, route, target.at).map_or(f64::NEG_INFINITY, |(arc, _)| arc);
         let forks = route.forks(tree);
@@ -96,9 +94,9 @@ pub(super) fn reached(
     let is_open = |forks: &[Fork], route: &Route| {
         let has_room = route.clearance(ROOM * wire.diameter_mm).is_ok();
         has_room
-            && match choice {
-                Choice::Given => gets_in(forks, std::slice::from_ref(wire)),
-                Choice::Proposed => gets_in(forks, &suiting(route, wire)),
+            && match is_only {
+                true => gets_in(forks, std::slice::from_ref(wire)),
+                false => gets_in(forks, &suiting(route, wire)),
             }
     };
     if is_open(&forks(&first, &route), &route) {
@@ -113,12 +111,7 @@ pub(super) fn reached(
 }
 
 /// The wire for the way to a target; without one, for the best that it can reach, and that.
-pub(super) fn proposed(
-    tree: &Tree,
-    from: Vec3,
-    target: Option<Vec3>,
-    ostia: &[(PlaceName, Entry)],
-) -> (Wire, Option<Target>) {
+pub(super) fn proposed(tree: &Tree, from: Vec3, target: Option<Vec3>, choice: Choice<'_>) -> (Wire, Option<Target>) {
     let [thick, thin] = [Wire::LONG_BEND, Wire::USUAL].map(Wire::named);
     if let Some(target) = target {
         // That there is no route is said when it is asked for.
@@ -127,7 +120,7 @@ pub(super) fn proposed(
             .is_ok_and(|route| route.usual_radius_mm() >= WIDE && route.clearance(ROOM * thick.diameter_mm).is_ok());
         return (if is_wide { thick } else { thin }, None);
     }
-    let [by_thick, by_thin] = [&thick, &thin].map(|wire| reached(tree, from, wire, Choice::Proposed, ostia));
+    let [by_thick, by_thin] = [&thick, &thin].map(|wire| reached(tree, from, wire, choice));
     let is_far = |target: &Target| by_thin.as_ref().is_none_or(|other| target.length_mm >= PART * other.length_mm);
     match by_thick.filter(|target| target.usual_radius_mm >= WIDE && is_far(target)) {
         Some(target) => (thick, Some(target)),
@@ -151,8 +144,7 @@ mod tests {
         let tree = Tree::new(&tube(48, 480, 60.0, radius)).unwrap();
         let entries = tree.entries();
         assert!(entries[0].1.at[2] < 8.0, "the widest end is listed first: {entries:?}");
-        let proposed_z =
-            |wire| proposed_entry(&tree, &entries, Some(&Wire::named(wire)), &[], |_, _| true).unwrap().at[2];
+        let proposed_z = |wire| proposed_entry(&tree, &entries, Some(&Wire::named(wire)), |_, _| true).unwrap().at[2];
         // A wire that comes through the waist enters at the widest end; for a thicker one there is nothing behind it.
         assert!(proposed_z(Wire::USUAL) < 8.0 && proposed_z(Wire::LONG_BEND) > 50.0);
     }
@@ -162,23 +154,23 @@ mod tests {
         let tree = Tree::new(&tube(48, 480, 60.0, |z| 3.0 - 0.01 * z)).unwrap();
         let entries = tree.entries();
         let wire = Wire::named(Wire::USUAL);
-        let proposed = |fits: &dyn Fn(&Entry, &Wire) -> bool| proposed_entry(&tree, &entries, Some(&wire), &[], fits);
+        let proposed = |fits: &dyn Fn(&Entry, &Wire) -> bool| proposed_entry(&tree, &entries, Some(&wire), fits);
         assert_eq!(proposed(&|_, _| true), Some(entries[0].1));
         assert_eq!(proposed(&|entry, _| *entry != entries[0].1), Some(entries[1].1));
     }
 
     #[test]
     fn a_target_behind_a_fork_that_no_tip_gets_into_gives_way_to_another() {
-        let goes_into_branch = |radius: f64, choice| {
+        let goes_into_branch = |radius: f64, is_only| {
+            let choice = Choice::Open { is_only, ostia: &[] };
             let (mesh, end) = parted(radius, 200.0, 100.0, radius / 8.0);
             let tree = Tree::new(&mesh).unwrap();
-            let target =
-                reached(&tree, Vec3::Z * 4.0, &Wire::named(Wire::LONG_BEND), choice, &[]).unwrap().at.as_dvec3();
+            let target = reached(&tree, Vec3::Z * 4.0, &Wire::named(Wire::LONG_BEND), choice).unwrap().at.as_dvec3();
             target.distance(end) < target.distance(DVec3::Z * 200.0)
         };
         // The fork takes 1.2 radii. The longest tip reaches 23 mm, that of the wire 9.
-        assert!(goes_into_branch(16.0, Choice::Proposed) && !goes_into_branch(24.0, Choice::Proposed));
-        assert!(goes_into_branch(7.0, Choice::Given) && !goes_into_branch(16.0, Choice::Given));
+        assert!(goes_into_branch(16.0, false) && !goes_into_branch(24.0, false));
+        assert!(goes_into_branch(7.0, true) && !goes_into_branch(16.0, true));
     }
 
     #[test]
