@@ -32,7 +32,6 @@ fn start(store: &Store) -> Option<Run> {
     let arrays = if settings.keep_labels { kept_arrays(store) } else { None };
     let labels = arrays.and_then(|arrays| labels_of(&kept.mesh, &arrays));
     let smoothing = store.now.settings.smoothing;
-    let labels = with_caps(labels, kept.held_caps(&smoothing), kept.mesh.triangles.len());
     let needs_vertices = !store.arrays.is_empty();
     Some(Run::new(move |yielder, outbox| async move {
         // The widths are those of the kept surface, whoever finds them: the levels are the same.
@@ -50,7 +49,9 @@ fn start(store: &Store) -> Option<Run> {
             }
             known => (known.filter(|_| settings.spare_thin), 0.0),
         };
-        let caps = kept.held_caps(&smoothing);
+        let capped = if smoothing.hold_caps { kept.capped(&yielder.part(begun..begun)).await } else { None };
+        let caps = capped.map_or(&[][..], |capped| &capped.caps);
+        let labels = with_caps(labels, caps, kept.mesh.triangles.len());
         let holds = Holds { widths: known.as_deref(), labels: labels.as_deref(), caps };
         let part = yielder.part(begun..1.0);
         let Decimated { progressive, vertex_of_node } =

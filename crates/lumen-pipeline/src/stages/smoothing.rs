@@ -59,6 +59,10 @@ fn start(store: &Store) -> Option<Run> {
     let (bands, terms) = (store.bands.clone(), store.terms.clone());
     let bytes = if store.is_smoothed_again { TERMS_BYTES } else { 0 };
     Some(Run::new(move |yielder, outbox| async move {
+        if settings.iterations == 0 {
+            outbox.leave(move |store| store.now.smoothed = Some(Arc::new(unchanged(&kept))));
+            return;
+        }
         if settings.hold_caps {
             kept.capped(&yielder.part(0.0..CAPS)).await;
         }
@@ -75,9 +79,6 @@ fn start(store: &Store) -> Option<Run> {
 impl Filtering {
     async fn run(mut self, yielder: &Yielder, outbox: &Outbox) -> Smoothed {
         let settings = self.settings;
-        if settings.iterations == 0 {
-            return unchanged(&self.kept);
-        }
         let end = if settings.guard { 0.7 } else { 1.0 };
         let filtered = yielder.part(0.0..if settings.preserve_volume { end / 2.0 } else { end });
         let bands = if settings.adapt { Some(self.bands(&filtered.part(0.0..0.6), outbox).await) } else { None };
