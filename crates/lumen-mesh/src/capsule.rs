@@ -2,6 +2,7 @@
 //! of a segment. Both search the boxes of [`SurfaceIndex`] from a bound that an earlier answer gives, so that the cost
 //! hardly depends on the number of triangles.
 
+use arrayvec::ArrayVec;
 use glam::{DVec3, Vec3, Vec4};
 
 use super::closest_point::TriangleProjection;
@@ -174,16 +175,15 @@ impl SurfaceIndex {
             return;
         }
         let cut_off = |squared: f64| (squared * ALLOWANCE).min(1e30) as f32 + rounding;
-        // Both with room for the children of one node more.
-        let mut stack = [(0.0f32, 0u32); STACK + 4];
+        let mut stack = ArrayVec::<(f32, u32), STACK>::new();
+        stack.push((0.0, 0));
+        // With room for the children of one node more.
         let mut leaves = [(0.0f32, 0u32, 0u8); BATCH + 4];
-        let mut top = 1;
-        while top > 0 {
+        while !stack.is_empty() {
             let limit = cut_off(*squared);
             let mut found = 0;
-            while top > 0 && found < BATCH {
-                top -= 1;
-                let (nearest, child) = stack[top];
+            while found < BATCH {
+                let Some((nearest, child)) = stack.pop() else { break };
                 if nearest > limit {
                     continue;
                 }
@@ -191,8 +191,9 @@ impl SurfaceIndex {
                 for (lane, nearest) in distances(node).into_iter().enumerate() {
                     let (child, count) = (node.child[lane], node.count[lane]);
                     let (is_near, is_leaf) = (nearest <= limit, count > 0);
-                    stack[top] = (nearest, child);
-                    top += usize::from(is_near & !is_leaf);
+                    if is_near & !is_leaf {
+                        stack.push((nearest, child));
+                    }
                     leaves[found] = (nearest, child, count);
                     found += usize::from(is_near & is_leaf);
                 }

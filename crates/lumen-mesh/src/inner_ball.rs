@@ -15,6 +15,7 @@
 //! [`inner_radii`] finds the balls of a whole surface. Where vertices lie much closer together than the walls, their balls
 //! hardly differ: a vertex within a fifth of a ball's radius of the vertex that it was found at takes its radius over.
 
+use arrayvec::ArrayVec;
 use glam::{DVec3, Vec3, Vec4};
 
 use super::ball::Ball;
@@ -26,7 +27,7 @@ use crate::task::{Yielder, at_once};
 /// Cosine and sine of 15 degrees, the half-angle of the cone in which a wall faces another.
 const FACING: [f64; 2] = [0.965_925_826_289_068_3, 0.258_819_045_102_520_7];
 /// A ball is small enough when the next is not smaller by more than this part.
-const ENOUGH: f64 = 1e-6;
+const ENOUGH: f64 = 1e-4;
 /// Steps on one triangle. Each lands on the triangle's nearest point to a smaller ball; two or three do.
 const STEPS: usize = 8;
 
@@ -133,11 +134,18 @@ impl Shrinking {
     }
 
     /// Shrinks the ball to the triangle, if that faces `p` and reaches into the ball.
-    fn shrink_to(&mut self, leaf: &Leaf) -> bool {
-        let [a, b, c] = leaf.corners.map(Vec3::as_dvec3);
-        if (b - a).cross(c - a).dot(self.inward) <= 0.0 {
+    fn shrink_to(&mut self, leaf: &Leaf, extent: &Extent) -> bool {
+        let [a, b, c] = leaf.corners;
+        let normal = (b - a).cross(c - a);
+        if normal.dot(extent.inward) <= 0.0 {
             return false;
         }
+        // What reaches into the ball has a plane that does.
+        let height = normal.dot(a - extent.middle);
+        if height > 0.0 && height * height >= extent.squared * normal.length_squared() {
+            return false;
+        }
+        let [a, b, c] = leaf.corners.map(Vec3::as_dvec3);
         let before = self.radius;
         for _ in 0..STEPS {
             let projection = leaf.project_point(self.centre().as_vec3());
@@ -169,15 +177,15 @@ impl SurfaceIndex {
         if ball.radius >= limit {
             return None;
         }
-        let mut stack = [(0u32, 0u8); STACK];
-        let mut top = usize::from(!self.nodes.is_empty());
+        let mut stack = ArrayVec::<(u32, u8), STACK>::new();
+        if !self.nodes.is_empty() {
+            stack.push((0, 0));
+        }
         let (mut extent, cone) = (Extent::of(&ball), Cone::of(&ball));
-        while top > 0 {
-            top -= 1;
-            let (child, count) = stack[top];
+        while let Some((child, count)) = stack.pop() {
             if count > 0 {
                 for leaf in &self.leaves[child as usize..child as usize + usize::from(count)] {
-                    if ball.shrink_to(leaf) {
+                    if ball.shrink_to(leaf, &extent) {
                         extent = Extent::of(&ball);
                     }
                 }
@@ -186,11 +194,11 @@ impl SurfaceIndex {
             let node = &self.nodes[child as usize];
             let distances = node.squared_distances(&extent.centre);
             let faces = cone.reaches(node);
-            let bottom = top;
+            let bottom = stack.len();
             for (lane, &squared) in distances.iter().enumerate().take(usize::from(node.used)) {
                 if squared <= extent.squared && faces >> lane & 1 != 0 {
-                    stack[top] = (node.child[lane], node.count[lane]);
-                    top += 1;
+                    stack.push((node.child[lane], node.count[lane]));
+                    let top = stack.len();
                     // The nearest is looked at first.
                     if top - bottom > 1 && squared > distances[..lane].iter().copied().fold(f32::INFINITY, f32::min) {
                         stack.swap(top - 1, top - 2);
@@ -279,13 +287,17 @@ impl Cone {
 /// A ball as boxes are compared with it, with an allowance for rounding.
 struct Extent {
     centre: [Vec4; 3],
+    middle: Vec3,
+    inward: Vec3,
     squared: f32,
 }
 
 impl Extent {
     fn of(ball: &Shrinking) -> Self {
-        let centre = ball.centre().as_vec3().to_array().map(Vec4::splat);
-        Self { centre, squared: (ball.radius * ball.radius * (1.0 + 1e-5)) as f32 }
+        let middle = ball.centre().as_vec3();
+        let least = ball.radius * (1.0 - ENOUGH);
+        let squared = (least * least) as f32;
+        Self { centre: middle.to_array().map(Vec4::splat), middle, inward: ball.inward.as_vec3(), squared }
     }
 }
 

@@ -65,7 +65,7 @@ pub use measures::{
     volume_of, volume_within,
 };
 pub use nearest::{Nearest, SurfaceIndex};
-pub use refit::refitted;
+pub use refit::{joined_index, refitted};
 pub use roughness::{Roughness, roughness};
 pub use roughness::{bends, summarise_bends};
 pub use self_intersections::{Crossing, Indexed};

@@ -7,13 +7,14 @@
 //! Boxes are compared in f32 with a margin, triangles in f64 (`closest_point.rs`). Of triangles at the same distance
 //! the one of the least number wins, so the answer depends neither on the order of the visit nor on a hint or bound.
 
+use arrayvec::ArrayVec;
 use glam::{Vec3, Vec4};
 
 use super::closest_point::{TriangleProjection, closest_point_on_sliver, closest_point_on_triangle};
 use super::planes::plane;
 
-/// Room for the nodes still to visit: at most three per level, and [`IndexBuild`](super::IndexBuild) makes at most 32 levels.
-pub(super) const STACK: usize = 100;
+/// Room for the nodes still to visit: at most three per level, and [`IndexBuild`](super::IndexBuild) makes at most 42 levels.
+pub(super) const STACK: usize = 128;
 
 /// Relative allowance for the rounding of a squared distance to a box in f32.
 const BOX_MARGIN: f64 = 1.0 + 1e-6;
@@ -234,11 +235,9 @@ impl SurfaceIndex {
         let lanes = [Vec4::splat(p.x), Vec4::splat(p.y), Vec4::splat(p.z)];
         let mut cut_off = best.cut_off();
         // Squared distance, child and count of what is still to visit, the nearest on top.
-        let mut stack = [(0.0f32, 0u32, 0u8); STACK];
-        let mut top = 1;
-        while top > 0 {
-            top -= 1;
-            let (squared, child, count) = stack[top];
+        let mut stack = ArrayVec::<(f32, u32, u8), STACK>::new();
+        stack.push((0.0, 0, 0));
+        while let Some((squared, child, count)) = stack.pop() {
             if squared > cut_off {
                 continue;
             }
@@ -257,16 +256,17 @@ impl SurfaceIndex {
             }
             let node = &self.nodes[child as usize];
             let distances = node.squared_distances(&lanes);
-            let bottom = top;
+            let bottom = stack.len();
             for (lane, &squared) in distances.iter().enumerate().take(usize::from(node.used)) {
                 if squared <= cut_off {
-                    let mut at = top;
+                    let child = (squared, node.child[lane], node.count[lane]);
+                    let mut at = stack.len();
+                    stack.push(child);
                     while at > bottom && stack[at - 1].0 < squared {
                         stack[at] = stack[at - 1];
                         at -= 1;
                     }
-                    stack[at] = (squared, node.child[lane], node.count[lane]);
-                    top += 1;
+                    stack[at] = child;
                 }
             }
         }

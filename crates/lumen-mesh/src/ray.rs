@@ -3,6 +3,7 @@
 //! An edge against a triangle is Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection" (1997), the slabs
 //! of boxes Kay and Kajiya, "Ray tracing complex scenes" (1986), four at once.
 
+use arrayvec::ArrayVec;
 use glam::{DVec3, Vec3, Vec4};
 
 use super::nearest::{Leaf, STACK, SurfaceIndex};
@@ -86,11 +87,12 @@ impl SurfaceIndex {
     pub(super) fn along(&self, p: DVec3, direction: DVec3, mut farthest: f64, mut visit: impl FnMut(&Leaf, &mut f64)) {
         let origin = p.as_vec3().to_array().map(Vec4::splat);
         let inverse = direction.to_array().map(|d| Vec4::splat((1.0 / d).clamp(-1e30, 1e30) as f32));
-        let mut stack = [0u32; STACK];
-        let mut top = usize::from(!self.nodes.is_empty());
-        while top > 0 {
-            top -= 1;
-            let node = &self.nodes[stack[top] as usize];
+        let mut stack = ArrayVec::<u32, STACK>::new();
+        if !self.nodes.is_empty() {
+            stack.push(0);
+        }
+        while let Some(number) = stack.pop() {
+            let node = &self.nodes[number as usize];
             // The slabs of all four boxes at once, a little too wide for the rounding.
             let (mut enter, mut leave) = (Vec4::ZERO, Vec4::splat(farthest.min(1e37) as f32 * 1.000_01));
             for axis in 0..3 {
@@ -105,8 +107,7 @@ impl SurfaceIndex {
                 lanes &= lanes - 1;
                 let (child, count) = (node.child[lane], node.count[lane]);
                 if count == 0 {
-                    stack[top] = child;
-                    top += 1;
+                    stack.push(child);
                 } else {
                     for leaf in &self.leaves[child as usize..child as usize + usize::from(count)] {
                         visit(leaf, &mut farthest);

@@ -7,6 +7,7 @@ use std::cmp::Ordering::{Equal, Greater, Less};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use arrayvec::ArrayVec;
 use glam::{Vec3, Vec4};
 
 use super::TriMesh;
@@ -248,11 +249,11 @@ impl SurfaceIndex {
     /// the overlapping ones.
     fn overlapping(&self, min: Vec3, max: Vec3, keep: impl Fn(u32, u32) -> u32, mut visit: impl FnMut(Range<usize>)) {
         let (low, high) = (min.to_array().map(Vec4::splat), max.to_array().map(Vec4::splat));
-        let mut stack = [0u32; STACK];
-        let mut top = usize::from(!self.nodes.is_empty());
-        while top > 0 {
-            top -= 1;
-            let number = stack[top];
+        let mut stack = ArrayVec::<u32, STACK>::new();
+        if !self.nodes.is_empty() {
+            stack.push(0);
+        }
+        while let Some(number) = stack.pop() {
             let node = &self.nodes[number as usize];
             let mut lanes = keep(number, node.overlaps(&low, &high));
             while lanes != 0 {
@@ -262,8 +263,7 @@ impl SurfaceIndex {
                 if count > 0 {
                     visit(child as usize..child as usize + usize::from(count));
                 } else {
-                    stack[top] = child;
-                    top += 1;
+                    stack.push(child);
                 }
             }
         }

@@ -20,7 +20,7 @@ pub use super::times::StageTimes;
 use super::times::Times;
 use lumen_mesh::mending::{Faults, MendReport};
 use lumen_mesh::{Array, Ball, Measures, SurfaceIndex, Topology, TriMesh};
-use lumen_vessel::certificate::{Basis, CalibreError, Certificate};
+use lumen_vessel::certificate::{Basis, BranchCalibre, CalibreError, Certificate};
 use lumen_vessel::width::Narrowing;
 
 /// What the stages made, a slot each; shared, so that a copy costs nothing.
@@ -57,6 +57,8 @@ pub(super) struct Results {
     pub(super) certified: Option<Result<Arc<Certified>, CalibreError>>,
     /// How far a reduction is safe.
     pub(super) safe: Option<Arc<Safe>>,
+    /// Of the level whose vessels were measured last, or of that of the rate that is safe.
+    pub(super) calibres: Option<Arc<LevelCalibres>>,
     pub(super) indices: Indices,
     pub(super) times: Times,
 }
@@ -67,6 +69,21 @@ impl Results {
         let Target::Auto = self.settings.target else { return self.settings.target };
         let pinch = self.smoothed_measures.as_ref().and_then(|found| found.pinch);
         Target::Reduction(self.safe.as_ref().map_or(Target::AUTO_PER_MILLE, |safe| safe.auto(pinch)))
+    }
+}
+
+/// What the vessels have at a level: the certificate and the search for the safe rate ask for the same.
+pub(super) struct LevelCalibres {
+    pub(super) steps: u32,
+    pub(super) tolerance_percent: f64,
+    pub(super) branches: Vec<BranchCalibre>,
+}
+
+impl LevelCalibres {
+    /// Those of the level after so many steps, if they are known.
+    pub(super) fn at(&self, steps: u32, tolerance_percent: f64) -> Option<Vec<BranchCalibre>> {
+        let is_it = self.steps == steps && self.tolerance_percent == tolerance_percent;
+        is_it.then(|| self.branches.clone())
     }
 }
 

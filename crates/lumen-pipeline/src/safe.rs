@@ -23,12 +23,13 @@ use serde::{Deserialize, Serialize};
 
 use super::pinch::{Pinch, PinchMessage};
 use super::progressive::ProgressiveMesh;
+use super::results::LevelCalibres;
 use super::settings::{Target, reduction_percent};
 use super::task::Yielder;
 use lumen_mesh::TriMesh;
 use lumen_message::{Signed, messages};
 use lumen_vessel::certificate::{Basis, BranchCalibre, CalibreError, Coverage, StationStatus, Verdict};
-use lumen_vessel::{BranchName, Subject};
+use lumen_vessel::{Asked, BranchName, Subject};
 
 /// The rates that are looked at, in tenths of a percent; the first is the smoothed surface itself.
 const RATES: [u32; 15] = [0, 750, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 995, 998, 999];
@@ -201,27 +202,40 @@ impl Safe {
     }
 }
 
-/// How far the levels of `progressive`, which was made from the smoothed surface of `basis`, are safe; `pinch` is the first.
-/// To take a level out is one piece.
+/// How far the levels of `progressive`, which was made from the smoothed surface of `basis`, are safe, and the calibres at the
+/// rate of [`Target::Auto`], if that is 90 %; `pinch` is the first, and `known` are the calibres of some level. To take a
+/// level out is one piece.
 pub(crate) async fn safe_in_slices(
     basis: &Basis,
     progressive: &ProgressiveMesh,
     pinch: Option<Pinch>,
     tolerance_percent: f64,
+    known: Option<&LevelCalibres>,
     yielder: &Yielder,
-) -> Safe {
+) -> (Safe, Option<LevelCalibres>) {
     let (triangles, branches) = (progressive.triangles.len(), basis.of_smoothed(tolerance_percent));
-    let looks = vec![Look { per_mille: 0, reached: None, triangles, branches }];
+    let looks = vec![Look { per_mille: 0, reached: None, steps: 0, triangles, branches }];
     let mut search = Search { pinch, tolerance_percent, looks };
     while let Some(rate) = search.next_rate() {
         let done = search.fraction();
         yielder.rest(done).await;
         let (look, mesh) = Look::at(progressive, rate);
-        let subject = Subject::new(&Arc::new(mesh));
-        let branches = basis.measured(&subject, tolerance_percent, &yielder.part(done..done)).await;
+        let branches = match known.and_then(|known| known.at(look.steps, tolerance_percent)) {
+            Some(known) => known,
+            None => {
+                let (subject, part) = (Subject::new(&Arc::new(mesh)), yielder.part(done..done));
+                // Of the level that is taken everything is told; the certificate has it then.
+                let asked = if rate == Target::AUTO_PER_MILLE { Asked::SectionAndBall } else { Asked::Section };
+                basis.measured(&subject, asked, tolerance_percent, &part).await
+            }
+        };
         search.add(Look { branches, ..look });
     }
-    search.found()
+    let safe = search.found();
+    let is_taken = safe.auto(pinch) == Target::AUTO_PER_MILLE;
+    let there = search.looks.into_iter().find(|look| is_taken && look.per_mille == Target::AUTO_PER_MILLE);
+    let there = there.map(|Look { steps, branches, .. }| LevelCalibres { steps, tolerance_percent, branches });
+    (safe, there)
 }
 
 /// The search for the highest rate that is safe.
@@ -238,6 +252,7 @@ struct Look {
     per_mille: u32,
     /// That was reached, where the surface goes no further: then no higher one is looked at.
     reached: Option<f64>,
+    steps: u32,
     triangles: usize,
     branches: Vec<BranchCalibre>,
 }
@@ -248,7 +263,8 @@ impl Look {
         let level = progressive.level(Target::Reduction(per_mille));
         let (count, triangles) = (progressive.triangles.len(), level.triangles.len());
         let reached = level.shortfall.is_some().then(|| (10.0 * reduction_percent(count, triangles)).floor() / 10.0);
-        (Self { per_mille, reached, triangles, branches: Vec::new() }, progressive.extract(&level.triangles))
+        let look = Self { per_mille, reached, steps: level.steps, triangles, branches: Vec::new() };
+        (look, progressive.extract(&level.triangles))
     }
 
     fn coverage(&self) -> Coverage {

@@ -19,12 +19,21 @@ pub(super) struct Store {
     pub(super) kept_arrays: Option<(Arc<Surface>, Arc<Vec<Array>>)>,
     /// How wide the vessel is at each vertex, as a radius in mm, and the surface that this is of.
     pub(super) widths: Option<(Arc<Surface>, Arc<[f32]>)>,
-    /// The least pass bands that leave vessels their calibre, and the surface that they are of.
-    pub(super) bands: Option<(Arc<Surface>, Arc<[f32]>)>,
+    /// The least pass bands that leave vessels their calibre.
+    pub(super) bands: Option<LeastBands>,
     /// What makes another pass band cheap.
     pub(super) terms: Option<Arc<KeptTerms>>,
     /// Whether the kept surface has been smoothed before: then it may well be again.
     pub(super) is_smoothed_again: bool,
+}
+
+/// The least pass bands that leave vessels their calibre.
+#[derive(Clone)]
+pub(super) struct LeastBands {
+    pub(super) of: Arc<Surface>,
+    /// Those above this are exact; the others are no more than it.
+    pub(super) above: f32,
+    pub(super) bands: Arc<[f32]>,
 }
 
 impl Store {

@@ -47,12 +47,21 @@ impl Subject {
     }
 }
 
+/// What is asked for at a station.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// The cross-section, which alone verdicts are made of.
+    Section,
+    /// The largest ball inside there, too: more than half of the time.
+    SectionAndBall,
+}
+
 /// What a surface has at a station.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Calibre {
     /// Area of the cross-section in mm2: 0 where the vessel is gone, `None` where the cut does not close.
     pub area_mm2: Option<f64>,
-    /// Radius of the largest ball inside there, in mm: 0 where the vessel is gone.
+    /// Radius of the largest ball inside there, in mm: 0 where the vessel is gone, `None` also where it was not asked for.
     pub inscribed_mm: Option<f64>,
     /// Centroid of the cross-section in mm.
     pub middle_mm: Option<DVec3>,
@@ -77,14 +86,14 @@ pub(super) async fn measure(
     subject: &Subject,
     space: &Space,
     stations: &[Station],
-    known: Option<Known<'_>>,
+    (asked, known): (Asked, Option<Known<'_>>),
     yielder: &Yielder,
 ) -> Vec<Calibre> {
     let wall = Wall { shell: Shell { mesh: &subject.mesh, topology: &subject.topology }, index: &space.index };
     let mut found = Vec::with_capacity(stations.len());
     for block in blocks(stations.len(), BATCH) {
         let first = block.start;
-        let one = |i: usize| at_station(wall, space, &stations[first + i], known, first + i);
+        let one = |i: usize| at_station(wall, space, &stations[first + i], (asked, known), first + i);
         let measured = parallel::map_ranges(block.len(), PIECE, |piece| piece.map(one).collect::<Vec<_>>());
         found.extend(measured.into_iter().flatten());
         yielder.rest(found.len() as f32 / stations.len() as f32).await;
@@ -92,23 +101,36 @@ pub(super) async fn measure(
     found
 }
 
+/// Radius in mm of the ball in the middle of the vessel, wherever that has moved to; `may_move` on a surface that was made from
+/// the one of the stations.
+fn inscribed(space: &Space, at: DVec3, found: &Found, may_move: bool) -> Option<f64> {
+    let middle = match found {
+        Found::Closed(section) if may_move && !space.is_inside(at.as_vec3()) => section.middle,
+        Found::Gone => return Some(0.0),
+        _ => at,
+    };
+    if !space.is_inside(middle.as_vec3()) {
+        return None;
+    }
+    space.largest(middle).map(|ball| f64::from(ball.radius))
+}
+
 /// What the surface has at one of the stations, which has this `number`.
-fn at_station(wall: Wall<'_>, space: &Space, station: &Station, known: Option<Known<'_>>, number: usize) -> Calibre {
+fn at_station(
+    wall: Wall<'_>,
+    space: &Space,
+    station: &Station,
+    (asked, known): (Asked, Option<Known<'_>>),
+    number: usize,
+) -> Calibre {
     let Station { at, direction, .. } = *station;
     let found = match known {
         None => wall.section(at, direction).map_or(Found::Open, Found::Closed),
         Some(known) => wall.follow(space, at, direction, known.radii[number]),
     };
-    // The ball in the middle of the vessel, wherever that has moved to.
-    let middle = match found {
-        Found::Closed(section) if known.is_some() && !space.is_inside(at.as_vec3()) => Some(section.middle),
-        Found::Gone => None,
-        _ => Some(at),
-    };
-    let inscribed = match middle {
-        Some(middle) if space.is_inside(middle.as_vec3()) => space.largest(middle).map(|ball| f64::from(ball.radius)),
-        Some(_) => None,
-        None => Some(0.0),
+    let inscribed = match asked {
+        Asked::Section => None,
+        Asked::SectionAndBall => inscribed(space, at, &found, known.is_some()),
     };
     let section = match found {
         Found::Closed(section) => Some(section),

@@ -10,7 +10,7 @@ use std::fmt::{Display, Write as _};
 
 use serde::{Deserialize, Serialize};
 
-use super::calibre::{Calibre, Subject, measure};
+use super::calibre::{Asked, Calibre, Subject, measure};
 use super::certificate::{CalibreError, checked};
 use super::recentring::recentre;
 use super::stations::{Station, Stations};
@@ -184,12 +184,13 @@ impl Centrelines {
 /// The stations along the tree of a surface, where they stay, what each lies at, and the calibre there.
 pub(super) async fn settled(subject: &Subject, tree: &Tree, yielder: &Yielder) -> (Stations, Vec<Zone>, Vec<Calibre>) {
     let mut stations = Stations::new(tree);
-    let calibres = measure(subject, &tree.space, &stations.all, None, &yielder.part(0.0..0.5)).await;
+    let calibres = measure(subject, &tree.space, &stations.all, (Asked::Section, None), &yielder.part(0.0..0.5)).await;
     let radii: Vec<Option<f64>> = calibres.iter().map(|found| found.area_mm2.map(circle)).collect();
     let zones = zones(tree.branches(), &stations, &radii);
     recentre(&mut stations, &calibres, &zones);
     // Once more, where the stations are moved to.
-    let calibres = measure(subject, &tree.space, &stations.all, None, &yielder.part(0.5..1.0)).await;
+    let calibres =
+        measure(subject, &tree.space, &stations.all, (Asked::SectionAndBall, None), &yielder.part(0.5..1.0)).await;
     (stations, zones, calibres)
 }
 

@@ -33,7 +33,7 @@ pub use zones::Zone;
 use lumen_message::{grouped, messages};
 use serde::{Deserialize, Serialize};
 
-pub use calibre::{Calibre, Subject};
+pub use calibre::{Asked, Calibre, Subject};
 pub use centreline::Place;
 pub use centreline::{arcs, centreline, direction};
 pub use centrelines::{CentrelineFormat, Centrelines};

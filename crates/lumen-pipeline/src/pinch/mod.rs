@@ -166,6 +166,16 @@ struct Search<'a> {
     passes: Vec<Pass>,
 }
 
+/// A step that changes a triangle.
+struct Change {
+    step: u32,
+    /// The node that its corners which end become.
+    heir: u32,
+    next: [u32; 3],
+    /// Whether nothing is left of it.
+    is_gone: bool,
+}
+
 /// The surface passes over a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Pass {
@@ -211,25 +221,58 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// What a triangle becomes next; `None` where it lasts.
+    fn next(&self, corners: [u32; 3]) -> Option<Change> {
+        let ProgressiveMesh { node_ends, parents, .. } = self.progressive;
+        let step = self.end_of(corners);
+        if step == NEVER {
+            return None;
+        }
+        // Both nodes that a step ends go on at once, to the same one.
+        let mut heir = corners[0];
+        let next = corners.map(|v| {
+            let goes_on = node_ends[v as usize] == step;
+            if goes_on {
+                heir = parents[v as usize];
+            }
+            if goes_on { heir } else { v }
+        });
+        let is_gone = next[0] == next[1] || next[1] == next[2] || next[2] == next[0];
+        Some(Change { step, heir, next, is_gone })
+    }
+
+    /// The step that ends a triangle.
+    fn end_of(&self, corners: [u32; 3]) -> u32 {
+        corners.map(|v| self.progressive.node_ends[v as usize]).into_iter().fold(NEVER, u32::min)
+    }
+
+    /// Whether a triangle comes near a sample from the finest level to its end, or may do so.
+    fn comes_near(&self, mut corners: [u32; 3], near: &mut Vec<u32>) -> bool {
+        let positions = &self.progressive.positions;
+        let [a, b, c] = corners.map(|v| positions[v as usize]);
+        let (mut low, mut high) = (a.min(b).min(c), a.max(b).max(c));
+        while let Some(change) = self.next(corners) {
+            let to = positions[change.heir as usize];
+            (low, high) = (low.min(to), high.max(to));
+            if change.is_gone {
+                break;
+            }
+            corners = change.next;
+        }
+        near.clear();
+        self.tree.near(low, high, near);
+        !near.is_empty()
+    }
+
     /// Follows triangle `t` from the finest level to its end.
     fn follow_one(&self, t: usize, found: &mut Followed, near: &mut Vec<u32>) {
-        let ProgressiveMesh { triangles, node_ends, parents, positions, .. } = self.progressive;
-        let end_of = |corners: [u32; 3]| corners.map(|v| node_ends[v as usize]).into_iter().fold(NEVER, u32::min);
+        let ProgressiveMesh { triangles, positions, .. } = self.progressive;
         let mut corners = triangles[t];
-        loop {
-            let step = end_of(corners);
-            if step == NEVER {
-                return;
-            }
-            // Both nodes that a step ends go on at once, to the same one.
-            let mut heir = corners[0];
-            let next = corners.map(|v| {
-                let goes_on = node_ends[v as usize] == step;
-                if goes_on {
-                    heir = parents[v as usize];
-                }
-                if goes_on { heir } else { v }
-            });
+        // Most are of the wall, and stay there.
+        if !self.comes_near(corners, near) {
+            return;
+        }
+        while let Some(Change { step, heir, next, is_gone }) = self.next(corners) {
             let before = corners.map(|v| positions[v as usize]);
             let to = positions[heir as usize];
             let (low, high) = (before[0].min(before[1]).min(before[2]), before[0].max(before[1]).max(before[2]));
@@ -241,10 +284,10 @@ impl<'a> Search<'a> {
                     found.passes.push(Pass { sample: i, step, turn });
                 }
             }
-            if next[0] == next[1] || next[1] == next[2] || next[2] == next[0] {
+            if is_gone {
                 return;
             }
-            let rates = self.rates_between(step, end_of(next));
+            let rates = self.rates_between(step, self.end_of(next));
             if !rates.is_empty() {
                 let after = next.map(|v| positions[v as usize]);
                 let is_close = |&i: &u32| {

@@ -7,6 +7,7 @@
 //!
 //! `r` is the width of the vessel at the vertex (`lumen_vessel::width`).
 
+use super::means::{even_out, rings_around};
 use crate::settings::Smoothing;
 use crate::task::{Yielder, blocks};
 use lumen_mesh::{Topology, TriMesh};
@@ -23,32 +24,25 @@ const EVEN: usize = 16;
 /// Vertices between two looks at the clock.
 const VERTICES: usize = 4096;
 
-/// The pass bands of `mesh`, whose vessels have these `widths`, as radii in mm.
+/// The pass bands of `mesh`, whose vessels have these `widths`, as radii in mm. Only those above `above` are looked for: what
+/// comes out for the other vertices is no more than that, and not evened out everywhere.
 pub(crate) async fn least_pass_bands(
     mesh: &TriMesh,
     topology: &Topology,
     widths: &[f32],
+    above: f32,
     yielder: &Yielder,
 ) -> Vec<f32> {
     let count = widths.len();
-    let passes = 1 + EVEN;
     let mut bands = Vec::with_capacity(count);
     for block in blocks(count, VERTICES) {
         bands.extend(block.map(|v| band(mesh, topology, widths, v as u32)));
-        yielder.rest(0.0).await;
+        yielder.rest(0.1).await;
     }
-    let mut evened = vec![0.0; count];
-    for pass in 1..passes {
-        for block in blocks(count, VERTICES) {
-            for v in block {
-                let around = topology.neighbours(v as u32);
-                let mean = around.iter().map(|&n| bands[n as usize]).sum::<f32>() / around.len().max(1) as f32;
-                evened[v] = (bands[v] + if around.is_empty() { bands[v] } else { mean }) / 2.0;
-            }
-            yielder.rest(pass as f32 / passes as f32).await;
-        }
-        std::mem::swap(&mut bands, &mut evened);
-    }
+    // Farther than the means reach from all that is above, they come to no more than `above`.
+    let near = rings_around(topology, 2 * EVEN, |v| bands[v as usize] > above);
+    yielder.rest(0.2).await;
+    even_out(&mut bands, topology, &near, EVEN, &yielder.part(0.2..1.0)).await;
     bands
 }
 
@@ -77,7 +71,25 @@ mod tests {
     fn bands(mesh: &TriMesh) -> Vec<f32> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let (widths, _) = at_once(widths(mesh, &topology, None, &Yielder::never()));
-        at_once(least_pass_bands(mesh, &topology, &widths, &Yielder::never()))
+        at_once(least_pass_bands(mesh, &topology, &widths, 0.0, &Yielder::never()))
+    }
+
+    #[test]
+    fn bands_above_a_bound_do_not_depend_on_it() {
+        // A thin vessel that becomes a wide one.
+        let mesh = tube(48, 400, 120.0, |z| 1.0 + 5.0 / (1.0 + (30.0 - z).exp()));
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let (widths, _) = at_once(widths(&mesh, &topology, None, &Yielder::never()));
+        let above = |least: f32| at_once(least_pass_bands(&mesh, &topology, &widths, least, &Yielder::never()));
+        let all = above(0.0);
+        let most = all.iter().copied().fold(0.0, f32::max);
+        for least in [most / 2.0, most / 10.0, most] {
+            let found = above(least);
+            for (&found, &known) in found.iter().zip(&all) {
+                assert!(found == known || found.max(known) <= least, "{found} for {known} above {least}");
+            }
+            assert!(least == most || found != all, "far from what is above nothing is evened out");
+        }
     }
 
     #[test]

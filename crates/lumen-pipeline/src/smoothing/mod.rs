@@ -20,6 +20,7 @@ mod gains;
 mod guard;
 mod kept_terms;
 mod layout;
+mod means;
 mod order;
 mod placement;
 mod restore;

@@ -20,11 +20,12 @@
 use glam::Vec3;
 
 use super::Stencil;
+use super::means::{even_out, rings_around};
 use super::volume::directions;
 use crate::normals::{Weighting, vertex_normals};
 use crate::results::Surface;
 use crate::settings::Smoothing;
-use crate::task::{Yielder, blocks};
+use crate::task::Yielder;
 use lumen_mesh::{parallel, rms_edge};
 
 /// Means with the neighbours. They reach as far as around vessels of some five edges' radius; of a wave of four edges
@@ -34,8 +35,6 @@ const MEANS: usize = 16;
 const LONG: f32 = 2.0;
 /// Vertices that a core works on in one go.
 const PIECE: usize = 4096;
-/// Vertices between two looks at the clock.
-const VERTICES: usize = 16 * PIECE;
 
 /// Puts back what `smoothed`, the positions in mm that the filter of `settings` gave the vertices of `kept`, each with its
 /// own of `bands`, took off thin vessels. They stay as they are where no vessel asked for a wider pass band than the
@@ -61,26 +60,14 @@ pub(crate) async fn restore(
     yielder.rest(1.0 / steps).await;
     let typical = rms_edge(mesh) as f32;
     yielder.rest(1.0 / steps).await;
+    // What vessels get back of it depends on what they lost around.
+    let near = rings_around(topology, MEANS, |v| bands[v as usize] > pass_band);
     let mut losses = losses(kept, typical, &before, &smoothed, &after);
     drop(before);
     yielder.rest(2.0 / steps).await;
 
-    let mut evened = vec![0.0; losses.len()];
-    for mean in 0..MEANS {
-        for block in blocks(losses.len(), VERTICES) {
-            let first = block.start;
-            parallel::for_each_chunk_mut(&mut evened[block], PIECE, |from, chunk| {
-                for (v, evened) in (first + from..).zip(chunk) {
-                    // A rim too is evened with the wall behind it, though the filter knows its loop alone.
-                    let around = topology.neighbours(v as u32);
-                    let sum = around.iter().map(|&n| losses[n as usize]).sum::<f32>();
-                    *evened = (losses[v] + sum / around.len().max(1) as f32) / 2.0;
-                }
-            });
-            yielder.rest((2.0 + mean as f32) / steps).await;
-        }
-        std::mem::swap(&mut losses, &mut evened);
-    }
+    // A rim too is evened with the wall behind it, though the filter knows its loop alone.
+    even_out(&mut losses, topology, &near, MEANS, &yielder.part(2.0 / steps..(steps - 1.0) / steps)).await;
 
     let directions = directions(&smoothed, &after, loops);
     yielder.rest((steps - 1.0) / steps).await;

@@ -4,14 +4,14 @@
 use std::sync::Arc;
 
 use super::{Row, Run};
-use crate::results::{Certified, NOT_MEASURED};
+use crate::results::{Certified, LevelCalibres, NOT_MEASURED};
 use crate::settings::Target;
 use crate::stage::{Stage, Wanted};
 use crate::store::Store;
 use crate::task::{Yielder, blocks};
 use lumen_mesh::Vec3;
-use lumen_vessel::Subject;
 use lumen_vessel::certificate::{Basis, Certificate};
+use lumen_vessel::{Asked, Subject};
 
 /// Triangles whose nodes are coloured between two looks at the clock.
 const TRIANGLES: usize = 256;
@@ -25,7 +25,7 @@ pub(super) const VESSELS: Row = Row {
     is_background: true,
     has: |now| now.vessels.is_some(),
     clear: |now| {
-        now.vessels = None;
+        (now.vessels, now.calibres) = (None, None);
         now.times.begin(Stage::Vessels);
     },
     time: |times| &mut times.calibre,
@@ -66,15 +66,23 @@ pub(super) const CERTIFICATE: Row = Row {
 fn start_certificate(store: &Store) -> Option<Run> {
     let now = &store.now;
     let (vessels, reduced, levels) = (now.vessels.clone()?, now.reduced.clone()?, now.levels.clone()?);
-    let tolerance = now.settings.tolerance_percent;
+    let (tolerance, known) = (now.settings.tolerance_percent, now.calibres.clone());
     Some(Run::new(move |yielder, outbox| async move {
         let certified = match vessels {
             // There are no vessels.
             Err(error) => Err(error),
             Ok(basis) => {
-                let (mesh, topology, index) = (reduced.mesh.clone(), reduced.topology.clone(), None);
-                let subject = Subject { mesh, topology, index };
-                let branches = basis.measured(&subject, tolerance, &yielder.part(0.0..0.5)).await;
+                let steps = reduced.level.steps;
+                let branches = match known.and_then(|known| known.at(steps, tolerance)) {
+                    Some(known) => known,
+                    None => {
+                        let (mesh, topology, index) = (reduced.mesh.clone(), reduced.topology.clone(), None);
+                        let subject = Subject { mesh, topology, index };
+                        basis.measured(&subject, Asked::SectionAndBall, tolerance, &yielder.part(0.0..0.5)).await
+                    }
+                };
+                let calibres = LevelCalibres { steps, tolerance_percent: tolerance, branches: branches.clone() };
+                outbox.leave(|store| store.now.calibres = Some(Arc::new(calibres)));
                 let certificate = Certificate::new(branches, tolerance, basis.openings_without_branch());
                 let coloured = (&levels.progressive.positions[..], &reduced.level.triangles[..]);
                 let change_by_node = colours(coloured, &basis, &certificate, &yielder.part(0.5..1.0)).await;

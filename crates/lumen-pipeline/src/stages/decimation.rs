@@ -17,7 +17,7 @@ pub(super) const ROW: Row = Row {
     is_wanted: |_, _| true,
     is_background: false,
     has: |now| now.levels.is_some(),
-    clear: |now| now.levels = None,
+    clear: |now| (now.levels, now.calibres) = (None, None),
     time: |times| &mut times.decimation,
     start,
 };

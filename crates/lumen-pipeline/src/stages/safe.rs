@@ -22,11 +22,19 @@ pub(super) const ROW: Row = Row {
 fn start(store: &Store) -> Option<Run> {
     let now = &store.now;
     let (vessels, levels) = (now.vessels.clone()?, now.levels.clone()?);
-    let tolerance = now.settings.tolerance_percent;
+    let (tolerance, known) = (now.settings.tolerance_percent, now.calibres.clone());
     let pinch = now.smoothed_measures.as_ref().and_then(|found| found.pinch);
     Some(Run::new(move |yielder, outbox| async move {
         let safe = match vessels {
-            Ok(basis) => safe_in_slices(&basis, &levels.progressive, pinch, tolerance, &yielder).await,
+            Ok(basis) => {
+                let known = known.as_deref();
+                let (safe, there) =
+                    safe_in_slices(&basis, &levels.progressive, pinch, tolerance, known, &yielder).await;
+                if let Some(there) = there {
+                    outbox.leave(|store| store.now.calibres = Some(Arc::new(there)));
+                }
+                safe
+            }
             // There are no vessels.
             Err(error) => Safe::refused(tolerance, NoSafeRate::NoTree(error)),
         };

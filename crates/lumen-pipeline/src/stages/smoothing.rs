@@ -15,7 +15,7 @@ use crate::smoothing::{
     smooth_keeping_terms, smooth_varying,
 };
 use crate::stage::Stage;
-use crate::store::Store;
+use crate::store::{LeastBands, Store};
 use crate::task::Yielder;
 use crate::times::Part;
 use lumen_mesh::{Measures, SurfaceIndex, TriMesh, Vec3, rms_edge, surface_area, volume_within};
@@ -67,7 +67,8 @@ fn start(store: &Store) -> Option<Run> {
             kept.capped(&yielder.part(0.0..CAPS)).await;
         }
         let walls = kept.smoothed_as(&settings);
-        let bands = bands.filter(|(of, _)| Arc::ptr_eq(of, &walls)).map(|(_, bands)| bands);
+        let suit = |known: &LeastBands| Arc::ptr_eq(&known.of, &walls) && known.above <= settings.pass_band as f32;
+        let bands = bands.filter(suit).map(|known| known.bands);
         let terms = terms.filter(|terms| terms.suit(&kept, &settings));
         let filter = Filter::new(&settings);
         let filtering = Filtering { kept, walls, settings, filter, index, widths, bands, terms, bytes };
@@ -135,8 +136,10 @@ impl Filtering {
                 found
             }
         };
-        let bands: Arc<[f32]> = least_pass_bands(mesh, topology, &widths, &yielder.part(0.8..1.0)).await.into();
-        let left = (self.walls.clone(), bands.clone());
+        // A pass band down to half of this one has them, too.
+        let above = self.settings.pass_band as f32 / 2.0;
+        let bands: Arc<[f32]> = least_pass_bands(mesh, topology, &widths, above, &yielder.part(0.8..1.0)).await.into();
+        let left = LeastBands { of: self.walls.clone(), above, bands: bands.clone() };
         outbox.leave(|store| store.bands = Some(left));
         bands
     }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::branch::branch_calibre;
 use super::unit::{CalibreError, checked};
 use super::{BranchCalibre, Certificate};
-use crate::calibre::{Calibre, Known, Subject, measure};
+use crate::calibre::{Asked, Calibre, Known, Subject, measure};
 use crate::centrelines::{Centrelines, settled};
 use crate::locating::Located;
 use crate::stations::{Station, Stations};
@@ -46,7 +46,7 @@ impl Certificate {
         let is_reduced = !Arc::ptr_eq(&smoothed.mesh, &reduced.mesh);
         let basis = Basis::find(opened, smoothed, &yielder.part(0.0..0.8)).await?;
         let branches = if is_reduced {
-            basis.measured(&reduced, tolerance_percent, &yielder.part(0.8..1.0)).await
+            basis.measured(&reduced, Asked::SectionAndBall, tolerance_percent, &yielder.part(0.8..1.0)).await
         } else {
             basis.of_smoothed(tolerance_percent)
         };
@@ -83,17 +83,25 @@ impl Basis {
         // From here on only the surface is asked for.
         smoothed.index = None;
         let known = Known { radii: &radii, before: &opened, calibres: &of_opened };
-        let of_smoothed = measure(&smoothed, &space, &stations.all, Some(known), &yielder.part(0.85..1.0)).await;
+        let of_smoothed =
+            measure(&smoothed, &space, &stations.all, (Asked::SectionAndBall, Some(known)), &yielder.part(0.85..1.0))
+                .await;
         let edge_mm = f64::from(mean_edge(mesh));
         Ok(Self { tree, stations, zones, calibres: [of_opened, of_smoothed], radii, smoothed, edge_mm })
     }
 
     /// The calibre of each branch on a surface that was made from the smoothed one.
-    pub async fn measured(&self, subject: &Subject, tolerance_percent: f64, yielder: &Yielder) -> Vec<BranchCalibre> {
+    pub async fn measured(
+        &self,
+        subject: &Subject,
+        asked: Asked,
+        tolerance_percent: f64,
+        yielder: &Yielder,
+    ) -> Vec<BranchCalibre> {
         let space = subject.space(&yielder.part(0.0..0.3)).await;
         let known = Known { radii: &self.radii, before: &self.smoothed, calibres: &self.calibres[1] };
         let part = yielder.part(0.3..1.0);
-        let found = measure(subject, &space, &self.stations.all, Some(known), &part).await;
+        let found = measure(subject, &space, &self.stations.all, (asked, Some(known)), &part).await;
         self.judged(&found, tolerance_percent)
     }
 

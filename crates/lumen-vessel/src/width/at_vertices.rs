@@ -5,6 +5,8 @@
 //! surface: so it has no jumps, and a narrow place counts for the surface beside it. Where no wall of a piece faces
 //! another the radius is infinite.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::sync::Arc;
 
 use super::ring_median;
@@ -17,8 +19,6 @@ const SLOPE: f32 = 1.0;
 const VERTICES: usize = 4096;
 /// Medians that are taken of medians: what is left of a bad ball is two rings wide at most.
 const MEDIANS: usize = 4;
-/// Sweeps at most: each goes all the way in one direction.
-const SWEEPS: usize = 12;
 
 /// The width at each vertex of `mesh`, whose adjacency is `topology`, as a radius in mm; and an index of the surface: the
 /// one that is there already, or a new one.
@@ -40,29 +40,42 @@ pub async fn widths(
         }
     }
     drop(radii);
-    for sweep in 0..SWEEPS {
-        let mut has_changed = false;
-        for block in blocks(count, VERTICES) {
-            for i in block {
-                has_changed |= relax(mesh, topology, &mut widths, if sweep % 2 == 0 { i } else { count - 1 - i });
-            }
-            yielder.rest(0.85 + 0.15 * sweep as f32 / SWEEPS as f32).await;
-        }
-        if !has_changed {
-            break;
-        }
-    }
+    limit_growth(mesh, topology, &mut widths, &yielder.part(0.85..1.0)).await;
     (widths, index)
 }
 
-/// Lowers the width at `v` to what its neighbours leave it; whether it is lower than it was.
-fn relax(mesh: &TriMesh, topology: &Topology, widths: &mut [f32], v: usize) -> bool {
-    let p = mesh.positions[v];
-    let reach = |&n: &u32| widths[n as usize] + SLOPE * p.distance(mesh.positions[n as usize]);
-    let least = topology.neighbours(v as u32).iter().map(reach).fold(f32::INFINITY, f32::min);
-    let is_lower = least < widths[v];
-    if is_lower {
-        widths[v] = least;
+/// Lowers widths to what their neighbours leave them: the least first (Dijkstra), so that each is lowered once.
+async fn limit_growth(mesh: &TriMesh, topology: &Topology, widths: &mut [f32], yielder: &Yielder) {
+    let way = |v: u32, n: u32| SLOPE * mesh.positions[v as usize].distance(mesh.positions[n as usize]);
+    let count = widths.len();
+    // Positive numbers are in the order of their bits.
+    let mut queue = BinaryHeap::new();
+    for block in blocks(count, VERTICES) {
+        let end = block.end;
+        for v in block.map(|v| v as u32) {
+            let left = |&n: &u32| widths[n as usize] + way(v, n);
+            let least = topology.neighbours(v).iter().map(left).fold(f32::INFINITY, f32::min);
+            if least < widths[v as usize] {
+                queue.push(Reverse((least.to_bits(), v)));
+            }
+        }
+        yielder.rest(0.5 * end as f32 / count as f32).await;
     }
-    is_lower
+    let mut taken = 0;
+    while let Some(Reverse((bits, v))) = queue.pop() {
+        let width = f32::from_bits(bits);
+        if width < widths[v as usize] {
+            widths[v as usize] = width;
+            for &n in topology.neighbours(v) {
+                let left = width + way(n, v);
+                if left < widths[n as usize] {
+                    queue.push(Reverse((left.to_bits(), n)));
+                }
+            }
+        }
+        taken += 1;
+        if taken % VERTICES == 0 {
+            yielder.rest(0.5).await;
+        }
+    }
 }
