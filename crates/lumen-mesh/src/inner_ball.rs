@@ -27,7 +27,7 @@ use crate::task::{Yielder, at_once};
 /// Cosine and sine of 15 degrees, the half-angle of the cone in which a wall faces another.
 const FACING: [f64; 2] = [0.965_925_826_289_068_3, 0.258_819_045_102_520_7];
 /// A ball is small enough when the next is not smaller by more than this part.
-const ENOUGH: f64 = 1e-4;
+const ENOUGH: f64 = 1e-6;
 /// Steps on one triangle. Each lands on the triangle's nearest point to a smaller ball; two or three do.
 const STEPS: usize = 8;
 
@@ -142,7 +142,7 @@ impl Shrinking {
         }
         // What reaches into the ball has a plane that does.
         let height = normal.dot(a - extent.middle);
-        if height > 0.0 && height * height >= extent.squared * normal.length_squared() {
+        if height > 0.0 && height * height > extent.squared * normal.length_squared() {
             return false;
         }
         let [a, b, c] = leaf.corners.map(Vec3::as_dvec3);
@@ -284,7 +284,7 @@ impl Cone {
     }
 }
 
-/// A ball as boxes are compared with it, with an allowance for rounding.
+/// A ball as boxes and planes are compared with it, with an allowance for rounding.
 struct Extent {
     centre: [Vec4; 3],
     middle: Vec3,
@@ -295,8 +295,7 @@ struct Extent {
 impl Extent {
     fn of(ball: &Shrinking) -> Self {
         let middle = ball.centre().as_vec3();
-        let least = ball.radius * (1.0 - ENOUGH);
-        let squared = (least * least) as f32;
+        let squared = (ball.radius * ball.radius * (1.0 + 1e-5)) as f32;
         Self { centre: middle.to_array().map(Vec4::splat), middle, inward: ball.inward.as_vec3(), squared }
     }
 }

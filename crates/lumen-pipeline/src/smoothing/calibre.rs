@@ -88,7 +88,7 @@ mod tests {
             for (&found, &known) in found.iter().zip(&all) {
                 assert!(found == known || found.max(known) <= least, "{found} for {known} above {least}");
             }
-            assert!(least == most || found != all, "far from what is above nothing is evened out");
+            assert!(least != most / 2.0 || found != all, "far from what is above nothing is evened out");
         }
     }
 
