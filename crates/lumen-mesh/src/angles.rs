@@ -81,10 +81,13 @@ impl AngleCounts {
 
 /// The three angles of a triangle in degrees; those at a corner where two others coincide, or that is not finite, are 0.
 pub fn corner_angles(corners: [Vec3; 3]) -> [f64; 3] {
-    let p = corners.map(Vec3::as_dvec3);
-    std::array::from_fn(|i| {
-        let (e, f) = (p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]);
-        let angle = libm::atan2(e.cross(f).length(), e.dot(f)).to_degrees();
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let (ab, bc, ca) = (b - a, c - b, a - c);
+    // Of two sides at a corner: the sine and the cosine of the angle, by the product of their lengths.
+    let sine = ab.cross(bc).length();
+    // Not -0, which is an angle of 180 degrees.
+    [ab.dot(ca), bc.dot(ab), ca.dot(bc)].map(|back| {
+        let angle = libm::atan2(sine, 0.0 - back).to_degrees();
         if angle.is_finite() { angle } else { 0.0 }
     })
 }
