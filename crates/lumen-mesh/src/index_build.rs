@@ -5,9 +5,10 @@
 //! bins cannot separate the centroids, or a branch has grown too deep, the range is split at its median instead, which
 //! bounds the depth for any input.
 //!
-//! First triangles are put in the cells of a grid, some dozens in each: the upper levels split cells, the lower ones the triangles of a cell, which the processor has at hand (after Pantaleoni and Luebke, "HLBVH:
-//! hierarchical LBVH construction for real-time ray tracing of dynamic geometry", 2010). So a triangle is moved five to
-//! seven times and not as often as the tree is deep.
+//! First triangles are put in the cells of a grid, some dozens in each: the upper levels split cells, the lower ones the
+//! triangles of a cell, which the processor has at hand (after Pantaleoni and Luebke, "HLBVH: hierarchical LBVH construction
+//! for real-time ray tracing of dynamic geometry", 2010). So a triangle is moved five to seven times and not as often as the
+//! tree is deep.
 //!
 //! Slivers have several boxes (`split_boxes.rs`).
 //!
@@ -43,7 +44,8 @@ const CELLS_A_UNIT: usize = 8;
 
 /// An index that is being built.
 ///
-/// The cost of [`Self::advance`] is proportional to the `work` it is given: about 10 ns for each unit.
+/// The cost of [`Self::advance`] is proportional to the `work` it is given: about 10 ns for each unit. Where a grid is laid out or a
+/// cell is closed it takes up to 5 ns a triangle of the surface, or of the cell, more.
 #[derive(Debug, Default)]
 pub struct IndexBuild {
     stage: Stage,
@@ -52,9 +54,7 @@ pub struct IndexBuild {
     /// Of each cell first how many triangles it has, then where its next item goes.
     cells: Vec<u32>,
     items: Vec<Item>,
-    /// Boxes of triangles that have several.
-    loose: Vec<Item>,
-    /// The cells that have items, and loose items, each a cell by itself: their boxes, with their numbers for triangles.
+    /// The cells that have items: their boxes, with their numbers for triangles.
     filled: Vec<Item>,
     /// Items in these.
     filled_items: usize,
@@ -103,12 +103,12 @@ impl Grid {
         Self { least: bounds.min.into(), scale, bits }
     }
 
-    /// The number of the cell that the middle of a triangle's box is in.
+    /// The number of the cell that the middle of a box is in.
     #[inline]
-    fn cell(&self, [a, b, c]: [Vec3; 3]) -> usize {
-        let middle = (a.min(b).min(c) + a.max(b).max(c)) * 0.5;
+    fn cell(&self, min: Vec3, max: Vec3) -> usize {
         // That of a stray is the first or the last along an axis.
         let most = ((1 << self.bits) - 1) as f32;
+        let middle = (min + max) * 0.5;
         let cell = ((middle - self.least) * self.scale).clamp(Vec3::ZERO, Vec3::splat(most)).as_uvec3();
         (((cell.z << self.bits | cell.y) << self.bits) | cell.x) as usize
     }
@@ -441,7 +441,7 @@ impl IndexBuild {
         Poll::Pending
     }
 
-    /// Counts the triangles of each cell.
+    /// Counts the boxes of each cell.
     fn count(&mut self, positions: &[Vec3], triangles: &[[u32; 3]], work: usize) -> usize {
         if self.next == 0 {
             let bits = ((triangles.len() / FULL).max(1).ilog2() / 2).min(MOST_BITS);
@@ -452,7 +452,7 @@ impl IndexBuild {
         let end = triangles.len().min(self.next.saturating_add(work));
         for corners in &triangles[self.next..end] {
             if let Some(corners) = finite(corners, positions) {
-                self.cells[self.grid.cell(corners)] += 1;
+                boxes(corners, triangles.len(), |min, max| self.cells[self.grid.cell(min, max)] += 1);
                 self.triangles += 1;
             }
         }
@@ -464,25 +464,22 @@ impl IndexBuild {
             for cell in &mut self.cells {
                 before += std::mem::replace(cell, before);
             }
-            self.items = vec![Item::zeroed(); self.triangles];
+            self.items = bytemuck::zeroed_vec(before as usize);
         }
         used
     }
 
-    /// Puts the box of each triangle in its cell.
+    /// Puts the boxes of each triangle in their cells.
     fn add_boxes(&mut self, positions: &[Vec3], triangles: &[[u32; 3]], work: usize) -> usize {
         let end = triangles.len().min(self.next.saturating_add(work));
         for (t, corners) in triangles[self.next..end].iter().enumerate() {
             let Some(corners) = finite(corners, positions) else { continue };
             let t = (self.next + t) as u32;
-            let first = self.loose.len();
-            boxes(corners, triangles.len(), |min, max| self.loose.push(Item::new(min, max, t)));
-            if let [_, .., _] = self.loose[first..] {
-                continue;
-            }
-            let next = &mut self.cells[self.grid.cell(corners)];
-            self.items[*next as usize] = self.loose.pop().expect("each triangle has a box");
-            *next += 1;
+            boxes(corners, triangles.len(), |min, max| {
+                let next = &mut self.cells[self.grid.cell(min, max)];
+                self.items[*next as usize] = Item::new(min, max, t);
+                *next += 1;
+            });
         }
         let used = end - self.next;
         self.next = end;
@@ -492,38 +489,21 @@ impl IndexBuild {
         used
     }
 
-    /// Finds the boxes of the cells, as many of them as there is work. Where a triangle has several boxes its place is free, at
-    /// the end of its cell, and one of the loose ones takes it.
+    /// Finds the boxes of the cells, as many of them as there is work.
     fn fill(&mut self, work: usize) -> usize {
         let end = self.cells.len().min(self.next.saturating_add(work));
         let before = self.filled_items;
         for c in self.next..end {
-            let filled = self.cells[c] as usize;
-            while self.filled_items < filled && self.items[self.filled_items].count == 0 {
-                self.place_loose();
-            }
-            self.add_cell(filled);
+            // A cell is full where the next one begins.
+            self.add_cell(self.cells[c] as usize);
         }
         let used = (end - self.next) / CELLS_A_UNIT + self.filled_items - before;
         self.next = end;
         if end == self.cells.len() {
-            while self.filled_items < self.items.len() || !self.loose.is_empty() {
-                self.place_loose();
-            }
             self.cells = Vec::new();
             self.begin_splits();
         }
         used
-    }
-
-    /// Makes a cell of one of the loose items.
-    fn place_loose(&mut self) {
-        let item = self.loose.pop().expect("a triangle leaves one place and has two boxes or more");
-        match self.items.get_mut(self.filled_items) {
-            Some(free) => *free = item,
-            None => self.items.push(item),
-        }
-        self.add_cell(self.filled_items + 1);
     }
 
     /// Adds the cell of the next items, up to `end`, if there are any.

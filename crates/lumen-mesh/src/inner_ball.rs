@@ -28,6 +28,8 @@ use crate::task::{Yielder, at_once};
 const FACING: [f64; 2] = [0.965_925_826_289_068_3, 0.258_819_045_102_520_7];
 /// A ball is small enough when the next is not smaller by more than this part.
 const ENOUGH: f64 = 1e-6;
+/// By what the squared distance from a plane may be off in f32: of the squared distance from a corner.
+const OF_PLANE: f32 = 2e-4;
 /// Steps on one triangle. Each lands on the triangle's nearest point to a smaller ball; two or three do.
 const STEPS: usize = 8;
 
@@ -134,18 +136,11 @@ impl Shrinking {
     }
 
     /// Shrinks the ball to the triangle, if that faces `p` and reaches into the ball.
-    fn shrink_to(&mut self, leaf: &Leaf, extent: &Extent) -> bool {
-        let [a, b, c] = leaf.corners;
-        let normal = (b - a).cross(c - a);
-        if normal.dot(extent.inward) <= 0.0 {
-            return false;
-        }
-        // What reaches into the ball has a plane that does.
-        let height = normal.dot(a - extent.middle);
-        if height > 0.0 && height * height > extent.squared * normal.length_squared() {
-            return false;
-        }
+    fn shrink_to(&mut self, leaf: &Leaf) -> bool {
         let [a, b, c] = leaf.corners.map(Vec3::as_dvec3);
+        if (b - a).cross(c - a).dot(self.inward) <= 0.0 {
+            return false;
+        }
         let before = self.radius;
         for _ in 0..STEPS {
             let projection = leaf.project_point(self.centre().as_vec3());
@@ -185,7 +180,7 @@ impl SurfaceIndex {
         while let Some((child, count)) = stack.pop() {
             if count > 0 {
                 for leaf in &self.leaves[child as usize..child as usize + usize::from(count)] {
-                    if ball.shrink_to(leaf, &extent) {
+                    if !extent.misses(leaf) && ball.shrink_to(leaf) {
                         extent = Extent::of(&ball);
                     }
                 }
@@ -298,6 +293,18 @@ impl Extent {
         let squared = (ball.radius * ball.radius * (1.0 + 1e-5)) as f32;
         Self { centre: middle.to_array().map(Vec4::splat), middle, inward: ball.inward.as_vec3(), squared }
     }
+
+    /// Whether a triangle does not reach into the ball, or looks away: f32 knows that of nearly all, but of no sliver.
+    #[inline]
+    fn misses(&self, leaf: &Leaf) -> bool {
+        let [a, b, c] = leaf.corners;
+        let (normal, from) = ((b - a).cross(c - a), a - self.middle);
+        // What reaches into the ball has a plane that does.
+        let (height, size) = (normal.dot(from), normal.length_squared());
+        let is_far = height * height > (self.squared + OF_PLANE * from.length_squared()) * size;
+        let looks_away = normal.dot(self.inward) < -1e-3 * size.sqrt();
+        !leaf.is_sliver && (looks_away || is_far && height > 0.0)
+    }
 }
 
 #[cfg(test)]
@@ -338,6 +345,36 @@ mod tests {
                 assert!((ball.radius - 0.75).abs() < slack, "{sides}: {ball:?}");
                 assert!(ball.centre.truncate().length() < slack && (ball.centre.z - p.z).abs() < 0.05, "{ball:?}");
             }
+        }
+    }
+
+    #[test]
+    fn no_ball_is_wider_than_all_triangles_one_by_one_leave_it() {
+        // Walls 400 mm long, aslant to all axes, and a bumpy vessel far from the origin.
+        let turn = glam::Quat::from_rotation_arc(Vec3::Z, Vec3::new(1.0, 1.1, 0.9).normalize());
+        let aslant = [24, 64, 200].map(|sides| {
+            let mut mesh = tube(sides, 1, 400.0, |_| 0.5);
+            mesh.positions.iter_mut().for_each(|p| *p = turn * *p);
+            mesh
+        });
+        let mut bumpy = tube(24, 40, 30.0, |z| 2.0 + 0.3 * (3.0 * z).sin());
+        bumpy.positions.iter_mut().for_each(|p| *p += Vec3::splat(300.0));
+        for mesh in aslant.iter().chain([&bumpy]) {
+            let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+            let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+            let mut count = 0;
+            for v in 0..mesh.positions.len() {
+                let Some(normal) = outward_normal(mesh, &topology, v as u32) else { continue };
+                let (p, inward) = (mesh.positions[v], -normal.as_dvec3());
+                let Some(found) = index.inner_ball(p, normal, 100.0) else { continue };
+                // A hair wider, so that it is the walls that make it narrower again.
+                let radius = f64::from(found.radius) * 1.0001;
+                let mut ball = Shrinking { p: p.as_dvec3(), inward, radius };
+                while index.leaves.iter().fold(false, |has_shrunk, leaf| ball.shrink_to(leaf) || has_shrunk) {}
+                assert!(f64::from(found.radius) / ball.radius - 1.0 < 2e-5, "{v}: {found:?}, {}", ball.radius);
+                count += 1;
+            }
+            assert!(count > mesh.positions.len() / 3, "{count}");
         }
     }
 

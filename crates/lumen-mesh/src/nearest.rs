@@ -13,7 +13,8 @@ use glam::{Vec3, Vec4};
 use super::closest_point::{TriangleProjection, closest_point_on_sliver, closest_point_on_triangle};
 use super::planes::plane;
 
-/// Room for the nodes still to visit: at most three per level, and [`IndexBuild`](super::IndexBuild) makes at most 42 levels.
+/// Room for the nodes still to visit: at most three per level, and one. [`IndexBuild`](super::IndexBuild) makes at most 40 levels of
+/// less than 2^27 triangles, and where two indices are joined there is one more.
 pub(super) const STACK: usize = 128;
 
 /// Relative allowance for the rounding of a squared distance to a box in f32.
@@ -395,6 +396,27 @@ mod tests {
         }
         let other = SurfaceIndex::new(&[Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]]);
         assert_eq!(other.nearest_from(Vec3::Z, &last), other.nearest(Vec3::Z));
+    }
+
+    #[test]
+    fn slivers_strays_and_what_is_no_number_are_found_in_many_cells() {
+        let mut mesh = square(60, 60.0, 0.0);
+        let first = mesh.positions.len() as u32;
+        for i in 0..200 {
+            let (x, z) = (i as f32 * 0.3, 1.0 + 0.01 * i as f32);
+            mesh.positions.extend([Vec3::new(x, 0.0, z), Vec3::new(60.0 - x, 60.0, z), Vec3::new(x, 0.01, z)]);
+        }
+        mesh.positions.extend([Vec3::NAN, Vec3::splat(1e4), Vec3::splat(1.1e4), Vec3::new(1e4, 1.1e4, 0.0)]);
+        mesh.triangles.extend((0..200).map(|i| [0, 1, 2].map(|k| first + 3 * i + k)));
+        mesh.triangles.extend([[first + 600, 0, 1], [first + 601, first + 602, first + 603]]);
+        let found = index(&mesh);
+        assert!(found.len() == mesh.triangles.len() - 1 && found.slots() > mesh.triangles.len() + 200);
+        mesh.triangles.retain(|triangle| !triangle.contains(&(first + 600)));
+        for p in cloud(400, 40.0).map(|p| p + Vec3::new(30.0, 30.0, 1.5)).chain([Vec3::splat(9e3)]) {
+            let (squared, _) = brute_force(&mesh, p);
+            let distance = f64::from(found.nearest(p).unwrap().distance);
+            assert!((distance - squared.sqrt()).abs() <= 1e-6 * squared.sqrt().max(1.0), "{p}");
+        }
     }
 
     #[test]

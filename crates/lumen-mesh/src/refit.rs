@@ -43,7 +43,9 @@ pub async fn refitted(index: &SurfaceIndex, moved: &TriMesh, yielder: &Yielder) 
 /// When a triangle of a part has no number.
 pub async fn joined_index(parts: [(&SurfaceIndex, &[u32]); 2], yielder: &Yielder) -> SurfaceIndex {
     let slots = parts.iter().map(|(index, _)| index.leaves.len()).sum();
-    let (mut nodes, mut leaves) = (vec![Node::EMPTY], Vec::with_capacity(slots));
+    let mut nodes = Vec::with_capacity(1 + parts.iter().map(|(index, _)| index.nodes.len()).sum::<usize>());
+    nodes.push(Node::EMPTY);
+    let mut leaves = Vec::with_capacity(slots);
     for (index, numbers) in parts {
         let (first_node, first_slot) = (nodes.len() as u32, leaves.len() as u32);
         if let Some(root) = index.nodes.first() {

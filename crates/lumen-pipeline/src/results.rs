@@ -57,7 +57,7 @@ pub(super) struct Results {
     pub(super) certified: Option<Result<Arc<Certified>, CalibreError>>,
     /// How far a reduction is safe.
     pub(super) safe: Option<Arc<Safe>>,
-    /// Of the level whose vessels were measured last, or of that of the rate that is safe.
+    /// Of the level whose vessels were measured last, or of that at 90 %.
     pub(super) calibres: Option<Arc<LevelCalibres>>,
     pub(super) indices: Indices,
     pub(super) times: Times,

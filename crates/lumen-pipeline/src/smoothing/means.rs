@@ -25,8 +25,7 @@ pub(super) fn rings_around(topology: &Topology, rings: usize, is_seed: impl Fn(u
             }
         }
     }
-    all.sort_unstable();
-    all
+    (0..count as u32).filter(|&v| is_in[v as usize]).collect()
 }
 
 /// Replaces `values` at the vertices of `at` by the middle between each and the mean of its neighbours, `times` times over;

@@ -78,11 +78,13 @@ fn start_certificate(store: &Store) -> Option<Run> {
                     None => {
                         let (mesh, topology, index) = (reduced.mesh.clone(), reduced.topology.clone(), None);
                         let subject = Subject { mesh, topology, index };
-                        basis.measured(&subject, Asked::SectionAndBall, tolerance, &yielder.part(0.0..0.5)).await
+                        let part = yielder.part(0.0..0.5);
+                        let branches = basis.measured(&subject, Asked::SectionAndBall, tolerance, &part).await;
+                        let left = LevelCalibres { steps, tolerance_percent: tolerance, branches: branches.clone() };
+                        outbox.leave(|store| store.now.calibres = Some(Arc::new(left)));
+                        branches
                     }
                 };
-                let calibres = LevelCalibres { steps, tolerance_percent: tolerance, branches: branches.clone() };
-                outbox.leave(|store| store.now.calibres = Some(Arc::new(calibres)));
                 let certificate = Certificate::new(branches, tolerance, basis.openings_without_branch());
                 let coloured = (&levels.progressive.positions[..], &reduced.level.triangles[..]);
                 let change_by_node = colours(coloured, &basis, &certificate, &yielder.part(0.5..1.0)).await;

@@ -136,8 +136,9 @@ impl Filtering {
                 found
             }
         };
-        // A pass band down to half of this one has them, too.
-        let above = self.settings.pass_band as f32 / 2.0;
+        // A pass band down to half of this one has them, too; without caps, whose widths are not kept, every one.
+        let keeps_widths = Arc::ptr_eq(kept, &self.walls);
+        let above = if keeps_widths { self.settings.pass_band as f32 / 2.0 } else { 0.0 };
         let bands: Arc<[f32]> = least_pass_bands(mesh, topology, &widths, above, &yielder.part(0.8..1.0)).await.into();
         let left = LeastBands { of: self.walls.clone(), above, bands: bands.clone() };
         outbox.leave(|store| store.bands = Some(left));

@@ -79,3 +79,35 @@ async fn limit_growth(mesh: &TriMesh, topology: &Topology, widths: &mut [f32], y
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lumen_mesh::shapes::tube;
+    use lumen_mesh::split_mix::SplitMix64;
+    use lumen_mesh::task::at_once;
+
+    #[test]
+    fn growth_is_limited_as_by_relaxing_until_nothing_changes() {
+        let mesh = tube(16, 60, 60.0, |z| 2.0 + 0.5 * (0.3 * z).sin());
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let mut random = SplitMix64::new(7);
+        let mut width = || if random.unit() < 0.1 { f32::INFINITY } else { 0.1 + 40.0 * random.unit() as f32 };
+        let widths: Vec<f32> = mesh.positions.iter().map(|_| width()).collect();
+        let mut found = widths.clone();
+        at_once(limit_growth(&mesh, &topology, &mut found, &Yielder::never()));
+        let mut relaxed = widths.clone();
+        let mut has_changed = true;
+        while std::mem::take(&mut has_changed) {
+            for v in 0..relaxed.len() {
+                for &n in topology.neighbours(v as u32) {
+                    let left = relaxed[n as usize] + mesh.positions[v].distance(mesh.positions[n as usize]);
+                    if left < relaxed[v] {
+                        (relaxed[v], has_changed) = (left, true);
+                    }
+                }
+            }
+        }
+        assert!(found == relaxed && found != widths);
+    }
+}
