@@ -349,28 +349,25 @@ mod tests {
     }
 
     #[test]
-    fn no_ball_is_wider_than_all_triangles_one_by_one_leave_it() {
-        // Walls 400 mm long, aslant to all axes, and a bumpy vessel far from the origin.
+    fn no_ball_is_wider_than_all_slivers_one_by_one_leave_it() {
+        // Walls 400 mm long, aslant to all axes.
         let turn = glam::Quat::from_rotation_arc(Vec3::Z, Vec3::new(1.0, 1.1, 0.9).normalize());
-        let aslant = [24, 64, 200].map(|sides| {
+        for sides in [24, 64, 200] {
             let mut mesh = tube(sides, 1, 400.0, |_| 0.5);
             mesh.positions.iter_mut().for_each(|p| *p = turn * *p);
-            mesh
-        });
-        let mut bumpy = tube(24, 40, 30.0, |z| 2.0 + 0.3 * (3.0 * z).sin());
-        bumpy.positions.iter_mut().for_each(|p| *p += Vec3::splat(300.0));
-        for mesh in aslant.iter().chain([&bumpy]) {
             let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
             let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
             let mut count = 0;
             for v in 0..mesh.positions.len() {
-                let Some(normal) = outward_normal(mesh, &topology, v as u32) else { continue };
-                let (p, inward) = (mesh.positions[v], -normal.as_dvec3());
-                let Some(found) = index.inner_ball(p, normal, 100.0) else { continue };
+                let Some(normal) = outward_normal(&mesh, &topology, v as u32) else { continue };
+                let Some(found) = index.inner_ball(mesh.positions[v], normal, 100.0) else { continue };
                 // A hair wider, so that it is the walls that make it narrower again.
-                let radius = f64::from(found.radius) * 1.0001;
-                let mut ball = Shrinking { p: p.as_dvec3(), inward, radius };
-                while index.leaves.iter().fold(false, |has_shrunk, leaf| ball.shrink_to(leaf) || has_shrunk) {}
+                let (p, radius) = (mesh.positions[v].as_dvec3(), f64::from(found.radius) * 1.0001);
+                let mut ball = Shrinking { p, inward: -normal.as_dvec3(), radius };
+                let mut has_shrunk = true;
+                while std::mem::take(&mut has_shrunk) {
+                    index.leaves.iter().for_each(|leaf| has_shrunk |= ball.shrink_to(leaf));
+                }
                 assert!(f64::from(found.radius) / ball.radius - 1.0 < 2e-5, "{v}: {found:?}, {}", ball.radius);
                 count += 1;
             }
