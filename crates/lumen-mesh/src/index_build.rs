@@ -5,11 +5,6 @@
 //! bins cannot separate the centroids, or a branch has grown too deep, the range is split at its median instead, which
 //! bounds the depth for any input.
 //!
-//! First triangles are put in the cells of a grid, some dozens in each: the upper levels split cells, the lower ones the
-//! triangles of a cell, which the processor has at hand (after Pantaleoni and Luebke, "HLBVH: hierarchical LBVH construction
-//! for real-time ray tracing of dynamic geometry", 2010). So a triangle is moved five to seven times and not as often as the
-//! tree is deep.
-//!
 //! Slivers have several boxes (`split_boxes.rs`).
 //!
 //! The result does not depend on how the work was sliced.
@@ -20,10 +15,10 @@ use std::task::Poll;
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec3A, Vec4};
 
+use super::TriMesh;
 use super::closest_point::is_sliver;
 use super::nearest::{Leaf, Node, SurfaceIndex};
 use super::split_boxes::boxes;
-use super::{Bounds, TriMesh};
 use crate::task::Yielder;
 
 /// Most triangles in a leaf.
@@ -35,40 +30,21 @@ const BINS: usize = 16;
 const DEEP: u8 = 32;
 /// What a split costs beside its triangles, in triangles.
 const SPLIT_COST: usize = 16;
-/// The bits of a grid are such that four to their power are triangles over this: of a surface some dozens are in a cell then.
-const FULL: usize = 64;
-/// Most of them: two million cells.
-const MOST_BITS: u32 = 7;
-/// Empty cells that are passed over in the time of a triangle.
-const CELLS_A_UNIT: usize = 8;
 
 /// An index that is being built.
 ///
-/// The cost of [`Self::advance`] is proportional to the `work` it is given: about 10 ns for each unit. Where a grid is laid out or a
-/// cell is closed it takes up to 5 ns a triangle of the surface, or of the cell, more.
+/// The cost of [`Self::advance`] is proportional to the `work` it is given: about 10 ns for each unit.
 #[derive(Debug, Default)]
 pub struct IndexBuild {
     stage: Stage,
     next: usize,
-    grid: Grid,
-    /// Of each cell first how many triangles it has, then where its next item goes.
-    cells: Vec<u32>,
     items: Vec<Item>,
-    /// The cells that have items: their boxes, with their numbers for triangles.
-    filled: Vec<Item>,
-    /// Items in these.
-    filled_items: usize,
-    /// Of each of these the items and the box of their centroids.
-    contents: Vec<Contents>,
     all: Region,
     nodes: Vec<Node>,
     pending: Vec<Pending>,
     active: Option<Pending>,
     split: Box<Split>,
     leaves: Vec<Leaf>,
-    /// The cell whose items become leaves next, and how many of them are.
-    cell: usize,
-    of_cell: usize,
     /// Triangles, each of which has one item or more.
     triangles: usize,
     split_triangles: usize,
@@ -77,57 +53,24 @@ pub struct IndexBuild {
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
 enum Stage {
     #[default]
-    Cells,
     Boxes,
-    Filling,
     Splits,
     Leaves,
 }
 
-/// A grid of cubes over a surface.
-#[derive(Debug, Default, Clone, Copy)]
-struct Grid {
-    least: Vec3,
-    /// Cells a mm.
-    scale: f32,
-    /// Two to this power are the cells along an axis.
-    bits: u32,
-}
-
-impl Grid {
-    /// Over `points`, strays left out.
-    fn over(points: &[Vec3], bits: u32) -> Self {
-        let bounds = Bounds::of_most(points);
-        let size = bounds.longest_side();
-        let scale = if size > 0.0 { ((1 << bits) as f32 - 0.5) / size } else { 0.0 };
-        Self { least: bounds.min.into(), scale, bits }
-    }
-
-    /// The number of the cell that the middle of a box is in.
-    #[inline]
-    fn cell(&self, min: Vec3, max: Vec3) -> usize {
-        // That of a stray is the first or the last along an axis.
-        let most = ((1 << self.bits) - 1) as f32;
-        let middle = (min + max) * 0.5;
-        let cell = ((middle - self.least) * self.scale).clamp(Vec3::ZERO, Vec3::splat(most)).as_uvec3();
-        (((cell.z << self.bits | cell.y) << self.bits) | cell.x) as usize
-    }
-}
-
-/// A triangle's box, or that of a cell, as two vectors of four to load at once.
+/// A triangle's box, as two vectors of four to load at once.
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 #[repr(C, align(16))]
 struct Item {
     min: [f32; 3],
     triangle: u32,
     max: [f32; 3],
-    /// Triangles in it.
-    count: u32,
+    unused: u32,
 }
 
 impl Item {
     fn new(min: Vec3, max: Vec3, triangle: u32) -> Self {
-        Self { min: min.to_array(), triangle, max: max.to_array(), count: 1 }
+        Self { min: min.to_array(), triangle, max: max.to_array(), unused: 0 }
     }
 
     #[inline]
@@ -170,22 +113,11 @@ impl Region {
     }
 }
 
-/// The items of a cell.
-#[derive(Debug, Clone, Copy)]
-struct Contents {
-    start: usize,
-    end: usize,
-    centroids: Region,
-}
-
-/// A range of items, or of cells, with the box of its triangles and that of the centroids.
+/// A range of items with the box of its triangles and that of their centroids.
 #[derive(Debug, Clone, Copy)]
 struct Range {
     start: usize,
     end: usize,
-    is_of_cells: bool,
-    /// Slot of the first triangle; the others follow.
-    slot: usize,
     depth: u8,
     bounds: Region,
     centroids: Region,
@@ -269,7 +201,7 @@ impl Split {
                 let bin = &mut self.bins[by.bin(item)];
                 let Region { min, max } = item.region();
                 bin.bounds.include(min, max);
-                bin.count += item.count as usize;
+                bin.count += 1;
             }
             self.binned = end;
             if end < range.end {
@@ -298,15 +230,13 @@ impl Split {
             *parting = Parting { plane, left, right, centroids };
             return None;
         }
-        let part = |start, end, bins: &[Bin], centroids, slot| {
+        let part = |start, end, bins: &[Bin], centroids| {
             let bounds = union(bins.iter().map(|bin| bin.bounds));
-            Range { start, end, slot, depth: range.depth + 1, bounds, centroids, ..*range }
+            Range { start, end, depth: range.depth + 1, bounds, centroids }
         };
-        let [below, above] = [&self.bins[..plane], &self.bins[plane..by.bins]];
-        let middle = range.slot + below.iter().map(|bin| bin.count).sum::<usize>();
         Some([
-            part(range.start, left, below, centroids[0], range.slot),
-            part(left, range.end, above, centroids[1], middle),
+            part(range.start, left, &self.bins[..plane], centroids[0]),
+            part(left, range.end, &self.bins[plane..by.bins], centroids[1]),
         ])
     }
 }
@@ -346,19 +276,12 @@ fn halves(range: &Range, items: &mut [Item], axis: usize) -> [Range; 2] {
     let key = |item: &Item| item.min[axis] + item.max[axis];
     items[range.start..range.end]
         .select_nth_unstable_by(range.len() / 2, |a, b| key(a).total_cmp(&key(b)).then(a.triangle.cmp(&b.triangle)));
-    let slot = range.slot + items[range.start..middle].iter().map(|item| item.count as usize).sum::<usize>();
-    [(range.start, middle, range.slot), (middle, range.end, slot)].map(|(start, end, slot)| {
+    [(range.start, middle), (middle, range.end)].map(|(start, end)| {
         let part = &items[start..end];
         let bounds = union(part.iter().map(Item::region));
         let centroids = union(part.iter().map(|item| Region { min: item.centroid(), max: item.centroid() }));
-        Range { start, end, slot, depth: range.depth + 1, bounds, centroids, ..*range }
+        Range { start, end, depth: range.depth + 1, bounds, centroids }
     })
-}
-
-/// The corners of a triangle, unless one is not finite.
-fn finite(corners: &[u32; 3], positions: &[Vec3]) -> Option<[Vec3; 3]> {
-    let corners = corners.map(|v| positions[v as usize]);
-    corners.iter().all(|corner| corner.is_finite()).then_some(corners)
 }
 
 impl SurfaceIndex {
@@ -410,7 +333,7 @@ impl IndexBuild {
         let total = self.items.len().max(1) as f32;
         // Leaves are reached depth first, so the triangles in them grow evenly with the time.
         let tenths = match self.stage {
-            Stage::Cells | Stage::Boxes | Stage::Filling => 0.0,
+            Stage::Boxes => 0.0,
             Stage::Splits => 1.0 + 8.0 * (self.split_triangles as f32 / total),
             Stage::Leaves => 9.0 + self.next as f32 / total,
         };
@@ -426,9 +349,7 @@ impl IndexBuild {
         let mut left = work.max(1);
         while left > 0 {
             let used = match self.stage {
-                Stage::Cells => self.count(positions, triangles, left),
                 Stage::Boxes => self.add_boxes(positions, triangles, left),
-                Stage::Filling => self.fill(left),
                 Stage::Splits => self.split(left),
                 Stage::Leaves => self.add_leaves(positions, triangles, left),
             };
@@ -441,86 +362,30 @@ impl IndexBuild {
         Poll::Pending
     }
 
-    /// Counts the boxes of each cell.
-    fn count(&mut self, positions: &[Vec3], triangles: &[[u32; 3]], work: usize) -> usize {
+    fn add_boxes(&mut self, positions: &[Vec3], triangles: &[[u32; 3]], work: usize) -> usize {
         if self.next == 0 {
-            let bits = ((triangles.len() / FULL).max(1).ilog2() / 2).min(MOST_BITS);
-            self.grid = Grid::over(positions, bits);
-            self.cells = vec![0; 1 << (3 * bits)];
+            self.items.reserve_exact(triangles.len());
             self.triangles = 0;
         }
         let end = triangles.len().min(self.next.saturating_add(work));
-        for corners in &triangles[self.next..end] {
-            if let Some(corners) = finite(corners, positions) {
-                boxes(corners, triangles.len(), |min, max| self.cells[self.grid.cell(min, max)] += 1);
+        for (offset, corners) in triangles[self.next..end].iter().enumerate() {
+            let [a, b, c] = corners.map(|v| positions[v as usize]);
+            if a.is_finite() && b.is_finite() && c.is_finite() {
                 self.triangles += 1;
+                boxes([a, b, c], triangles.len(), |min, max| {
+                    let item = Item::new(min, max, (self.next + offset) as u32);
+                    let centroid = item.centroid();
+                    self.all.include(centroid, centroid);
+                    self.items.push(item);
+                });
             }
         }
         let used = end - self.next;
         self.next = end;
         if end == triangles.len() {
-            (self.next, self.stage) = (0, Stage::Boxes);
-            let mut before = 0;
-            for cell in &mut self.cells {
-                before += std::mem::replace(cell, before);
-            }
-            self.items = bytemuck::zeroed_vec(before as usize);
-        }
-        used
-    }
-
-    /// Puts the boxes of each triangle in their cells.
-    fn add_boxes(&mut self, positions: &[Vec3], triangles: &[[u32; 3]], work: usize) -> usize {
-        let end = triangles.len().min(self.next.saturating_add(work));
-        for (t, corners) in triangles[self.next..end].iter().enumerate() {
-            let Some(corners) = finite(corners, positions) else { continue };
-            let t = (self.next + t) as u32;
-            boxes(corners, triangles.len(), |min, max| {
-                let next = &mut self.cells[self.grid.cell(min, max)];
-                self.items[*next as usize] = Item::new(min, max, t);
-                *next += 1;
-            });
-        }
-        let used = end - self.next;
-        self.next = end;
-        if end == triangles.len() {
-            (self.next, self.stage) = (0, Stage::Filling);
-        }
-        used
-    }
-
-    /// Finds the boxes of the cells, as many of them as there is work.
-    fn fill(&mut self, work: usize) -> usize {
-        let end = self.cells.len().min(self.next.saturating_add(work));
-        let before = self.filled_items;
-        for c in self.next..end {
-            // A cell is full where the next one begins.
-            self.add_cell(self.cells[c] as usize);
-        }
-        let used = (end - self.next) / CELLS_A_UNIT + self.filled_items - before;
-        self.next = end;
-        if end == self.cells.len() {
-            self.cells = Vec::new();
             self.begin_splits();
         }
         used
-    }
-
-    /// Adds the cell of the next items, up to `end`, if there are any.
-    fn add_cell(&mut self, end: usize) {
-        let start = std::mem::replace(&mut self.filled_items, end);
-        let items = &self.items[start..end];
-        if items.is_empty() {
-            return;
-        }
-        let Region { min, max } = union(items.iter().map(Item::region));
-        let cell = self.contents.len() as u32;
-        let item = Item { count: items.len() as u32, ..Item::new(min.into(), max.into(), cell) };
-        let centroid = item.centroid();
-        self.all.include(centroid, centroid);
-        self.filled.push(item);
-        let centroids = union(items.iter().map(|item| Region { min: item.centroid(), max: item.centroid() }));
-        self.contents.push(Contents { start, end, centroids });
     }
 
     fn begin_splits(&mut self) {
@@ -538,18 +403,8 @@ impl IndexBuild {
         }
         self.stage = Stage::Splits;
         // The box of the whole is never asked for.
-        let (bounds, centroids) = (Region::default(), self.all);
-        let range = Range { start: 0, end: self.filled.len(), is_of_cells: true, slot: 0, depth: 0, bounds, centroids };
-        self.pending.push(Pending { range: self.opened(range), node: 0, is_root: true });
-    }
-
-    /// A range of one cell as the range of its items.
-    fn opened(&self, range: Range) -> Range {
-        if !range.is_of_cells || range.len() != 1 {
-            return range;
-        }
-        let Contents { start, end, centroids } = self.contents[self.filled[range.start].triangle as usize];
-        Range { start, end, centroids, is_of_cells: false, ..range }
+        let range = Range { start: 0, end: count, depth: 0, bounds: Region::default(), centroids: self.all };
+        self.pending.push(Pending { range, node: 0, is_root: true });
     }
 
     fn split(&mut self, work: usize) -> usize {
@@ -568,23 +423,19 @@ impl IndexBuild {
         };
         // Each item is put in a bin and then parted.
         let used = 2 * work.min(pending.range.len()) + SPLIT_COST;
-        let items = if pending.range.is_of_cells { &mut self.filled } else { &mut self.items };
-        match self.split.advance(&pending.range, items, work) {
+        match self.split.advance(&pending.range, &mut self.items, work) {
             None => self.active = Some(pending),
-            Some(parts) => parts.into_iter().for_each(|range| self.place(self.opened(range), &pending)),
+            Some(parts) => parts.into_iter().for_each(|range| self.place(range, &pending)),
         }
         used
     }
 
     /// Gives a part of a split range its place in the tree.
     fn place(&mut self, range: Range, parent: &Pending) {
-        let Range { slot, bounds: Region { min, max }, .. } = range;
-        let items = if range.is_of_cells { &self.filled } else { &self.items };
-        // None is empty.
-        let count: usize = items[range.start..range.end].iter().take(LEAF + 1).map(|item| item.count as usize).sum();
-        if count <= LEAF {
-            self.nodes[parent.node as usize].add(min.into(), max.into(), slot as u32, count as u8);
-            self.split_triangles += count;
+        let Range { start, bounds: Region { min, max }, .. } = range;
+        if range.len() <= LEAF {
+            self.nodes[parent.node as usize].add(min.into(), max.into(), start as u32, range.len() as u8);
+            self.split_triangles += range.len();
         } else if parent.is_root {
             self.pending.push(Pending { range, node: parent.node, is_root: false });
         } else {
@@ -599,18 +450,13 @@ impl IndexBuild {
         if self.next == 0 {
             self.leaves.reserve_exact(self.items.len());
         }
-        let before = self.next;
-        // Cells stand in the order of the tree now.
-        while let Some(cell) = self.filled.get(self.cell).filter(|_| self.next - before < work) {
-            let Contents { start, end, .. } = self.contents[cell.triangle as usize];
-            let last = end.min((start + self.of_cell).saturating_add(work));
-            for &Item { triangle, .. } in &self.items[start + self.of_cell..last] {
-                let corners = triangles[triangle as usize].map(|v| positions[v as usize]);
-                self.leaves.push(Leaf { corners, triangle, is_sliver: is_sliver(corners), sides: Leaf::ALL_SIDES });
-            }
-            self.next += last - start - self.of_cell;
-            (self.cell, self.of_cell) = if last == end { (self.cell + 1, 0) } else { (self.cell, last - start) };
+        let end = self.items.len().min(self.next.saturating_add(work));
+        for &Item { triangle, .. } in &self.items[self.next..end] {
+            let corners = triangles[triangle as usize].map(|v| positions[v as usize]);
+            self.leaves.push(Leaf { corners, triangle, is_sliver: is_sliver(corners), sides: Leaf::ALL_SIDES });
         }
-        self.next - before
+        let used = end - self.next;
+        self.next = end;
+        used
     }
 }

@@ -13,9 +13,9 @@ use glam::{Vec3, Vec4};
 use super::closest_point::{TriangleProjection, closest_point_on_sliver, closest_point_on_triangle};
 use super::planes::plane;
 
-/// Room for the nodes still to visit: at most three per level, and one. [`IndexBuild`](super::IndexBuild) makes at most 40 levels of
-/// less than 2^27 triangles, and where two indices are joined there is one more.
-pub(super) const STACK: usize = 128;
+/// Room for the nodes still to visit: at most three per level, and one. [`IndexBuild`](super::IndexBuild) makes at most 32 levels, and
+/// where two indices are joined there is one more.
+pub(super) const STACK: usize = 100;
 
 /// Relative allowance for the rounding of a squared distance to a box in f32.
 const BOX_MARGIN: f64 = 1.0 + 1e-6;
@@ -399,7 +399,7 @@ mod tests {
     }
 
     #[test]
-    fn slivers_strays_and_what_is_no_number_are_found_in_many_cells() {
+    fn among_slivers_strays_and_what_is_no_number_the_nearest_is_found() {
         let mut mesh = square(60, 60.0, 0.0);
         let first = mesh.positions.len() as u32;
         for i in 0..200 {
