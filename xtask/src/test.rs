@@ -14,12 +14,13 @@ use crate::step::{cargo, files_below, name, root, step, target};
 use crate::{build, firmware, tools};
 
 /// What `--quick` runs: the arguments of `cargo test` in turn, and files of tests/browser.
-const QUICK: ([&[&str]; 2], [&str; 2]) = (
+const QUICK: ([&[&str]; 3], [&str; 2]) = (
     [
         // The unit tests of every crate.
         &["--workspace", "--lib", "--bins"],
         // A real window, and the app without one: it opens, is moved by its controls, says what it is.
-        &["--workspace", "--test=window", "--test=app", "--", "the window starts", "controls::", "labels::"],
+        &["--package=lumen", "--test=window", "--", "the window starts"],
+        &["--package=lumen-ui-tests", "--test=app", "--", "controls::", "labels::"],
     ],
     // From the file dialog to the saved file; files that are refused.
     ["open-reduce-save.test.mjs", "bad-file.test.mjs"],
